@@ -1,0 +1,220 @@
+// A scene's tree: read from a file, changed by settings. What it means is up to load_scene (scene_loader.cpp).
+#include <yaml-cpp/eventhandler.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "model/scene_loader.h"
+#include "model/tree_reader.h"
+
+namespace vibratory_alignment {
+namespace {
+
+// A scene is some 50 lines and 4 levels deep; these bounds keep hostile files from exhausting stack and time.
+constexpr std::size_t most_bytes = 64 * 1024;
+constexpr std::size_t most_marks = 4000;
+constexpr int most_levels = 20;
+constexpr int most_nodes = 20'000;
+
+/// UTF-8 without control characters other than tabs and line ends.
+bool is_text(const std::string& bytes) {
+  std::size_t continuation_bytes = 0;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (continuation_bytes > 0) {
+      if ((byte & 0xc0) != 0x80) return false;
+      --continuation_bytes;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      if (c != '\t' && c != '\n' && c != '\r') return false;
+    } else if (byte >= 0x80) {
+      if (byte < 0xc2 || byte > 0xf4) return false;
+      continuation_bytes = byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
+    }
+  }
+  return continuation_bytes == 0;
+}
+
+/// Upper bound of the depth to which yaml-cpp recurses: the marks that can open a level. (Its own guard is as late as
+/// 0.7.)
+std::size_t count_marks(const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool before_blank = i + 1 == text.size() || std::isspace(static_cast<unsigned char>(text[i + 1])) != 0;
+    if (c == '[' || c == '{' || (before_blank && (c == '-' || c == '?' || c == ':'))) ++count;
+  }
+  return count;
+}
+
+/// False if the tree contains itself, or grows huge, by way of aliases.
+bool has_sane_extent(const YAML::Node& node, int levels_left, int& nodes_left) {
+  if (levels_left == 0 || --nodes_left < 0) return false;
+  for (const auto& entry : node) {
+    if (node.IsSequence()) {
+      if (!has_sane_extent(entry, levels_left - 1, nodes_left)) return false;
+    } else if (!has_sane_extent(entry.first, levels_left - 1, nodes_left) ||
+               !has_sane_extent(entry.second, levels_left - 1, nodes_left)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Counts documents up to 2, and nothing else. YAML::LoadAll cannot be asked: stray text makes it fill the memory.
+class DocumentCounter : public YAML::EventHandler {
+ public:
+  explicit DocumentCounter(const std::string& text) {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    while (count_ < 2 && parser.HandleNextDocument(*this)) ++count_;
+  }
+  int count() const { return count_; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+ private:
+  int count_ = 0;
+};
+
+/// The one document of the text. `source` is for messages.
+YAML::Node parse(const std::string& text, const std::string& source) {
+  if (text.size() > most_bytes) throw SceneError(source, {"is too large: a scene has at most 64 KiB"});
+  if (!is_text(text)) throw SceneError(source, {"is not text (UTF-8)"});
+  if (count_marks(text) > most_marks)
+    throw SceneError(source, {"is too large: a scene has at most " + std::to_string(most_marks) +
+                              " keys, list entries and brackets"});
+  YAML::Node tree;
+  int documents = 0;
+  try {
+    // yaml-cpp 0.6.2 hangs on a colon at the very end.
+    documents = DocumentCounter(text + "\n").count();
+    if (documents == 1) tree.reset(YAML::Load(text + "\n"));
+  } catch (const YAML::Exception& error) {
+    const std::string place = error.mark.is_null() ? ""
+                                                   : "line " + std::to_string(error.mark.line + 1) + ", column " +
+                                                         std::to_string(error.mark.column + 1) + ": ";
+    throw SceneError(source, {place + "is not YAML: " + error.msg});
+  }
+  if (documents == 0) throw SceneError(source, {"is empty"});
+  if (documents > 1) throw SceneError(source, {"must be one YAML document, with nothing before or after it"});
+  int nodes_left = most_nodes;
+  if (!has_sane_extent(tree, most_levels, nodes_left))
+    throw SceneError(source, {"is nested too deeply or too large (an alias inside what it stands for?)"});
+  return tree;
+}
+
+/// The parts between the dots; empty if one of them is.
+std::vector<std::string> split_key_path(const std::string& path) {
+  std::vector<std::string> keys;
+  std::istringstream stream(path);
+  for (std::string key; std::getline(stream, key, '.');) keys.push_back(key);
+  const bool has_gap = std::any_of(keys.begin(), keys.end(), [](const std::string& key) { return key.empty(); });
+  return has_gap || path.empty() || path.back() == '.' ? std::vector<std::string>() : keys;
+}
+
+bool is_key(const YAML::Node& node, const std::string& key) { return node.IsScalar() && node.Scalar() == key; }
+
+/// Puts one value into a tree (a null: takes the key out). Works on copies of the maps and lists that it passes
+/// through, so that what an alias shares with them keeps its value.
+class Setting {
+ public:
+  Setting(const std::string& assignment, const std::vector<std::string>& keys, const YAML::Node& value)
+      : assignment_(assignment), keys_(keys), value_(value) {}
+
+  YAML::Node applied_to(const YAML::Node& node, std::size_t level = 0) const {
+    if (level == keys_.size()) return value_;
+    if (!node.IsDefined() || node.IsNull()) return in_map(YAML::Node(YAML::NodeType::Map), level);
+    if (node.IsMap()) return in_map(node, level);
+    if (node.IsSequence()) return in_list(node, level);
+    fail("what stands above " + keys_[level] + " is neither a map nor a list");
+  }
+
+ private:
+  bool removes_at(std::size_t level) const { return level + 1 == keys_.size() && value_.IsNull(); }
+
+  YAML::Node in_map(const YAML::Node& map, std::size_t level) const {
+    YAML::Node copy(YAML::NodeType::Map);
+    bool found = false;
+    for (const auto& entry : map) {
+      const bool here = is_key(entry.first, keys_[level]);
+      found = found || here;
+      if (!here)
+        copy.force_insert(entry.first, entry.second);
+      else if (!removes_at(level))
+        copy.force_insert(entry.first, applied_to(entry.second, level + 1));
+    }
+    if (!found && value_.IsNull()) fail("there is no such key to take out");
+    if (!found) copy.force_insert(keys_[level], applied_to(YAML::Node(), level + 1));
+    return copy;
+  }
+
+  YAML::Node in_list(const YAML::Node& list, std::size_t level) const {
+    const std::optional<double> index = parse_number(keys_[level]);
+    bool found = false;
+    YAML::Node copy(YAML::NodeType::Sequence);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const bool here = index && *index == static_cast<double>(i);
+      found = found || here;
+      if (!here)
+        copy.push_back(list[i]);
+      else if (!removes_at(level))
+        copy.push_back(applied_to(list[i], level + 1));
+    }
+    if (!found) fail("the list has " + std::to_string(list.size()) + " entries, counted from 0: no " + keys_[level]);
+    return copy;
+  }
+
+  [[noreturn]] void fail(const std::string& fault) const { throw SceneError("--set " + assignment_, {fault}); }
+
+  const std::string& assignment_;
+  const std::vector<std::string>& keys_;
+  const YAML::Node& value_;
+};
+
+}  // namespace
+
+YAML::Node read_scene_file(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) throw SceneError(path, {"there is no such file"});
+  if (std::filesystem::is_directory(status)) throw SceneError(path, {"is a directory: name a scene file in it"});
+  std::ifstream file(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(status) || !file) throw SceneError(path, {"cannot be read"});
+  std::string text(most_bytes + 1, '\0');
+  file.read(&text[0], static_cast<std::streamsize>(text.size()));
+  if (file.bad()) throw SceneError(path, {"cannot be read"});
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  const YAML::Node tree = parse(text, path);
+  if (tree.IsNull()) throw SceneError(path, {"is empty"});
+  return tree;
+}
+
+void apply_setting(YAML::Node& tree, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::vector<std::string> keys = split_key_path(assignment.substr(0, equals));
+  if (equals == std::string::npos || equals + 1 == assignment.size() || keys.empty())
+    throw SceneError("--set " + assignment, {"must read key.path=value"});
+  const YAML::Node value = parse(assignment.substr(equals + 1), "--set " + assignment);
+  tree.reset(Setting(assignment, keys, value).applied_to(tree));
+}
+
+Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings) {
+  YAML::Node tree = read_scene_file(path);
+  for (const std::string& setting : settings) apply_setting(tree, setting);
+  return load_scene(tree, path);
+}
+
+}  // namespace vibratory_alignment

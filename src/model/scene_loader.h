@@ -1,0 +1,52 @@
+// Reads a scene from YAML, checks it whole and scales it to dimensionless numbers.
+// The only way into a Scene from outside: the command line hands over a file, the node the parameter server's tree.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "model/scene.h"
+
+namespace vibratory_alignment {
+
+/// All faults of one scene; what() is the message for the user, one fault a line: "source: key.path: value: what is
+/// allowed".
+class SceneError : public std::runtime_error {
+ public:
+  SceneError(std::string source, std::vector<std::string> faults);
+  const std::vector<std::string>& faults() const { return faults_; }
+
+ private:
+  std::vector<std::string> faults_;
+};
+
+/// Reads a YAML file into a tree. Throws SceneError when it is missing, unreadable, not a file, empty or not YAML.
+YAML::Node read_scene_file(const std::string& path);
+
+/// Does what --set does: puts the value, itself YAML, at a key path ("friction.coefficient=0.3",
+/// "excitation.1.phase=0.5", "contacts=[edges, corners]"; list entries count from 0), making sections that are not
+/// there yet. The value null takes the key out: its effect is not simulated. `tree` is then a new tree that shares the
+/// unchanged parts with the old one; other handles to the old one see no change (YAML::Clone it first for use by
+/// another thread). Throws SceneError when `assignment` is not "key.path=value" or leads through something that is not
+/// a map or list.
+void apply_setting(YAML::Node& tree, const std::string& assignment);
+
+/// Checks the tree against the schema (CONTRACTS.md "Scene") and scales it.
+/// `source` names the file (or parameter namespace) in messages and, without its folder and ending, a scene that has no
+/// name. Throws SceneError with every fault at once.
+///
+/// Keys beyond that page:
+///   trial.inserted_depth    ends the insertion above the floor (needs walls)
+///   solver.step_limit       more steps end the trial as failed
+///   excitation.waveform     sine, square, triangle, or chirp with end_frequency and sweep_time
+///   excitation.moment       [N m] instead of force or displacement, in si scenes for direction phi
+/// solver.tolerance goes with event, implicit, auto; solver.step with rk4, semi_implicit, ode.
+Scene load_scene(const YAML::Node& tree, const std::string& source);
+
+/// read_scene_file + settings + load_scene.
+Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings = {});
+
+}  // namespace vibratory_alignment
