@@ -1,0 +1,37 @@
+// Where the part and the base can touch, and what state each such place is in.
+//
+//   site      point that touches                 faces it can touch
+//   a1, a2    edges of the slot (+l,0), (-l,0)   bottom, right side, left side of the part
+//   b1, b2    lower corners of the part          top surface, wall of the slot
+//   b1_floor, b2_floor   the same corners        floor of the slot (a corner can touch wall and floor at once)
+#pragma once
+
+#include <array>
+
+namespace vibratory_alignment {
+
+enum class Site { a1, a2, b1, b2, b1_floor, b2_floor };
+constexpr int kSiteCount = 6;
+
+enum class Face { none, bottom, right_side, left_side, top, right_wall, left_wall, floor };
+
+/// outside: the point is not in the other body. unloaded: the contact lasts (depth > 0) but carries no force.
+/// loaded: N > 0. free: inside the other body without contact (entered through a face the scene does not call for).
+enum class Phase { outside, unloaded, loaded, free };
+
+/// Sliding direction of a loaded contact, the sign of V; `none` without friction, `regularized` for the tanh law.
+enum class Slip { none, plus, minus, stick, regularized };
+
+struct ContactState {
+  Phase phase = Phase::outside;
+  Face face = Face::none;
+  Slip slip = Slip::none;
+  double base_deformation = 0.0;  ///< u of a base that recovers (Base::recovery), at the start of the segment
+  double recovery_rate = 0.0;     ///< k/h with which it relaxes
+
+  bool touching() const { return phase == Phase::loaded || phase == Phase::unloaded; }
+};
+
+using ContactStates = std::array<ContactState, kSiteCount>;
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,54 @@
+// A running excitation: amplitude * waveform(theta), theta = frequency * tau + phase, with its kinks as events.
+//
+//   sine      sin theta
+//   square    +1 for theta in (0, pi), -1 for theta in (pi, 2 pi); jumps at 0 and pi
+//   triangle  2/pi asin(sin theta); kinks at pi/2 and 3 pi/2
+//   chirp     sin theta, where the frequency moves linearly to end_frequency in sweep_time; one event at the end
+// The phase is kept modulo 2 pi from a reference instant in double-double arithmetic: no drift over 1e6 periods.
+#pragma once
+
+#include "mechanics/instant.h"
+#include "model/scene.h"
+
+namespace vibratory_alignment {
+
+/// What a drive contributes during a segment, as a function of the time t since its start:
+/// constant + slope t + amplitude sin(frequency t + rate t^2/2 + phase).
+struct DriveForm {
+  double constant = 0.0, slope = 0.0;
+  double amplitude = 0.0, frequency = 0.0, rate = 0.0;
+  double sin_phase = 0.0, cos_phase = 1.0;
+};
+
+class Drive {
+ public:
+  Drive(const Excitation& excitation, const Instant& now);
+
+  const Excitation& excitation() const { return excitation_; }
+  Direction direction() const { return excitation_.direction; }
+
+  /// theta at `t`, in [0, 2 pi).
+  double phase_at(const Instant& t) const;
+
+  /// The smooth law that holds from `t` to the next kink.
+  DriveForm form_at(const Instant& t) const;
+
+  /// Time from `t` to the next kink; infinity for a sine.
+  double time_to_kink(const Instant& t) const;
+
+  /// Goes on to the law after the kink.
+  void pass_kink();
+
+  /// New settings from `now` on. The phase goes on from where it is, plus the difference of the two `phase` settings.
+  void change(const Excitation& excitation, const Instant& now);
+
+ private:
+  void choose_branch(const Instant& now);
+
+  Excitation excitation_;
+  Instant reference_;            ///< instant of reference_phase_, start of the sweep
+  double reference_phase_ = 0.0;
+  int branch_ = 0;               ///< square: 0 high, 1 low; triangle: 0 rising, 1 falling; chirp: 0 sweeping, 1 after
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,49 @@
+// Closed-form motion of one gripper axis without contact (MODEL.md "Free motion"):
+//     m q'' + h q' + k (q - anchor) = constant + slope t + sum of amplitude_i sin(nu_i t + phase_i)
+// for under-, critically and over-damped axes, k = 0 and h = 0 included.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/drive.h"
+#include "mechanics/system.h"
+
+namespace vibratory_alignment {
+
+class FreeMotion {
+ public:
+  /// Room for `drive_count` drives; nothing is allocated later.
+  explicit FreeMotion(std::size_t drive_count = 0) { sines_.reserve(drive_count); }
+
+  /// Begins a flight at t = 0 with position q and velocity v. Add the drives next, then call settle().
+  void begin(const Axis& axis, double q, double v, double constant_force);
+  void add(const DriveForm& form);
+  /// Fixes the constants of the motion. After it, exact() tells whether the closed form holds to roundoff: it does not
+  /// during a chirp and where two of its terms cancel (a nearly undamped axis driven near resonance, a nearly
+  /// vanishing stiffness); the power series of the segment is then as exact.
+  void settle();
+  bool exact() const { return exact_; }
+
+  /// Position and velocity at time t >= 0 after begin().
+  void at(double t, double& q, double& v) const;
+
+ private:
+  struct Sine {
+    double frequency, sin_amplitude, cos_amplitude;  ///< of the response
+  };
+
+  /// Response of the start: q = a C(t) + b S(t); C and S as in docs/hybrid_step.md "Flight".
+  void homogeneous(double t, double& c, double& s, double& c_rate, double& s_rate) const;
+  void particular(double t, double& q, double& v) const;
+
+  Axis axis_;
+  double start_q_ = 0.0, start_v_ = 0.0;
+  double constant_ = 0.0, slope_ = 0.0;
+  bool exact_ = true;
+  double decay_ = 0.0, square_ = 0.0, root_ = 0.0;  ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
+  double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
+  double c_factor_ = 0.0, s_factor_ = 0.0;
+  std::vector<Sine> sines_;
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,123 @@
+#include "mechanics/site_rules.h"
+
+#include <cmath>
+
+namespace vibratory_alignment {
+
+Region site_region(const System& system, Site site, int half) {
+  const double a = system.half_width, b = system.base_distance, l = system.slot_half_width;
+  Region region;
+  if (is_edge(site)) {
+    region.count = 3;
+    region.conditions[0] = {0.0, 1.0, b, Face::bottom};
+    region.conditions[1] = {-1.0, 0.0, a, Face::right_side};
+    region.conditions[2] = {1.0, 0.0, a, Face::left_side};
+  } else if (site == Site::b1 || site == Site::b2) {
+    region.count = 2;
+    region.conditions[0] = {0.0, -1.0, 0.0, Face::top};
+    region.conditions[1] = half == 0 ? RegionCondition{1.0, 0.0, -l, Face::right_wall}
+                                     : RegionCondition{-1.0, 0.0, -l, Face::left_wall};
+  } else {
+    region.count = 1;
+    region.conditions[0] = {0.0, -1.0, -system.floor_depth, Face::floor};
+  }
+  return region;
+}
+
+bool is_called_for(const System& system, Face face) {
+  switch (face) {
+    case Face::bottom:
+    case Face::right_side:
+    case Face::left_side:
+      return system.contacts.edges;
+    case Face::top:
+      return system.contacts.corners;
+    case Face::right_wall:
+    case Face::left_wall:
+      return system.contacts.walls;
+    case Face::floor:
+      return system.has_floor;
+    default:
+      return false;
+  }
+}
+
+Region face_limits(const System& system, Face face, const Vec2& p) {
+  const double a = system.half_width, b = system.base_distance, l = system.slot_half_width;
+  Region limits;
+  switch (face) {
+    case Face::bottom:  // between the part's corners
+      limits.count = 2;
+      limits.conditions[0] = {-1.0, 0.0, a, Face::right_side};
+      limits.conditions[1] = {1.0, 0.0, a, Face::left_side};
+      break;
+    case Face::right_side:  // above the lower corner, without upper end
+    case Face::left_side:
+      limits.count = 1;
+      limits.conditions[0] = {0.0, 1.0, b, Face::bottom};
+      break;
+    case Face::top:  // beside the slot
+      limits.count = 1;
+      limits.conditions[0] = p.x > 0.0 ? RegionCondition{1.0, 0.0, -l, Face::right_wall}
+                                       : RegionCondition{-1.0, 0.0, -l, Face::left_wall};
+      break;
+    case Face::right_wall:  // below the edge; the solid goes on behind the floor
+    case Face::left_wall:
+      limits.count = 1;
+      limits.conditions[0] = {0.0, -1.0, 0.0, Face::top};
+      break;
+    default:
+      break;
+  }
+  return limits;
+}
+
+bool site_in_use(const System& system, Site site) {
+  switch (site) {
+    case Site::a1:
+    case Site::a2:
+      return system.contacts.edges;
+    case Site::b1:
+    case Site::b2:
+      return system.contacts.corners || system.contacts.walls;
+    default:
+      return system.has_floor;
+  }
+}
+
+void place_contacts(const System& system, const State& state, ContactStates& contacts) {
+  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  for (int i = 0; i < kSiteCount; ++i) {
+    const Site site = static_cast<Site>(i);
+    ContactState& contact = contacts[i];
+    contact = {};
+    if (!site_in_use(system, site)) continue;
+    const Vec2 p = site_point(system, state, site);
+    for (int half = 0; half < region_count(site); ++half) {
+      const Region region = site_region(system, site, half);
+      // inside: all conditions hold; the nearest face is the one with the least depth
+      bool inside = true;
+      double least = INFINITY;
+      Face nearest = Face::none;
+      for (int j = 0; j < region.count; ++j) {
+        const double depth = region.conditions[j].value(p);
+        inside = inside && depth > 0.0;
+        if (depth < least) {
+          least = depth;
+          nearest = region.conditions[j].face;
+        }
+      }
+      if (!inside) continue;
+      // a corner below the floor level but beside the slot is in the base, not on the floor
+      if (nearest == Face::floor && std::abs(p.x) > system.slot_half_width) continue;
+      contact.face = is_called_for(system, nearest) ? nearest : Face::none;
+      contact.phase = Phase::free;
+      if (contact.face == Face::none) continue;
+      const ContactKinematics k = contact_kinematics(system, state, site, nearest);
+      const double force = stiffness_of(system, nearest, c, s) * k.depth + damping_of(system, nearest, c, s) * k.depth_rate;
+      contact.phase = force > 0.0 ? Phase::loaded : Phase::unloaded;
+    }
+  }
+}
+
+}  // namespace vibratory_alignment

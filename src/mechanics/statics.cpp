@@ -1,0 +1,160 @@
+#include "mechanics/statics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "mechanics/contact_frame.h"
+#include "mechanics/site_rules.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// y at which the edge at distance rx from C (along x) lies on the lower boundary of the part.
+std::optional<double> edge_touch(const System& system, double rx, double phi) {
+  const double a = system.half_width, b = system.base_distance;
+  const double c = std::cos(phi), s = std::sin(phi);
+  std::optional<double> highest;
+  const auto offer = [&](double y) {
+    if (std::isfinite(y) && (!highest || y > *highest)) highest = y;
+  };
+  const double slack = 1e-12 * (a + b);
+  // w = ry c - rx s = -b on the bottom, if |u| <= a; faces up where c > 0
+  if (c > 0.0) {
+    const double ry = (rx * s - b) / c;
+    if (std::abs(rx * c + ry * s) <= a + slack) offer(-ry);
+  }
+  // u = rx c + ry s = +-a on a side that faces down, if w >= -b
+  for (const double side : {1.0, -1.0}) {
+    if (side * s >= 0.0) continue;
+    const double ry = (side * a - rx * c) / s;
+    if (ry * c - rx * s >= -b - slack) offer(-ry);
+  }
+  return highest;
+}
+
+/// Root of a function on [low, high] whose ends differ in sign, to roundoff (bisection).
+double bisect(const std::function<double(double)>& f, double low, double high) {
+  const bool low_positive = f(low) > 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (((f(middle) > 0.0) == low_positive) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Height at which the vertical forces balance, searched below `top` (where nothing is touched).
+std::optional<double> balanced_height(const System& system, double x, double phi, double top) {
+  const auto lift = [&](double y) { return static_load(system, x, y, phi).force_y; };
+  if (lift(top) >= 0.0) return std::nullopt;
+  // the stiff base carries the load within a short way: double it until the part is pushed up
+  double way = 1e-12;
+  while (lift(top - way) < 0.0) {
+    way *= 2.0;
+    if (way > 1e9) return std::nullopt;
+  }
+  return bisect(lift, top - way, top);
+}
+
+}  // namespace
+
+std::optional<double> touch_height(const System& system, double x, double phi) {
+  std::optional<double> highest;
+  const auto offer = [&](std::optional<double> y) {
+    if (y && (!highest || *y > *highest)) highest = y;
+  };
+  const double l = system.slot_half_width;
+  for (const Site site : {Site::a1, Site::a2})
+    if (system.contacts.edges) offer(edge_touch(system, side_of(site) * l - x, phi));
+  State state;
+  state.x = x;
+  state.phi = phi;
+  for (const Site site : {Site::b1, Site::b2}) {
+    const Vec2 corner = site_point(system, state, site);
+    if (system.contacts.corners && std::abs(corner.x) >= l) offer(-corner.y);
+    if (system.has_floor && std::abs(corner.x) < l) offer(-corner.y - system.floor_depth);
+  }
+  return highest;
+}
+
+StaticLoad static_load(const System& system, double x, double y, double phi) {
+  State state;
+  state.x = x;
+  state.y = y;
+  state.phi = phi;
+  const double c = std::cos(phi), s = std::sin(phi);
+  ContactStates contacts{};
+  place_contacts(system, state, contacts);
+  double force_x = -system.x.stiffness * (x - system.x.anchor), force_y = -(y - system.y.anchor) * system.y.stiffness - system.weight;
+  double moment = -system.phi.stiffness * (phi - system.phi.anchor);
+  int loaded = 0;
+  ContactKinematics only;
+  double only_force = 0.0;
+  for (int i = 0; i < kSiteCount; ++i) {
+    if (!contacts[i].touching()) continue;
+    const ContactKinematics k = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
+    const double n = stiffness_of(system, contacts[i].face, c, s) * k.depth;
+    if (n <= 0.0) continue;
+    force_x += n * k.normal.x;
+    force_y += n * k.normal.y;
+    moment += n * (k.lever.x * k.normal.y - k.lever.y * k.normal.x);
+    only = k;
+    only_force = n;
+    ++loaded;
+  }
+  if (loaded == 1 && system.x.moves && system.friction > 0.0 && system.regularization == 0.0 && only.tangent.x != 0.0) {
+    const double limit = system.friction * only_force;
+    const double t = std::clamp(-force_x / only.tangent.x, -limit, limit);
+    force_y += t * only.tangent.y;
+    moment += t * (only.lever.x * only.tangent.y - only.lever.y * only.tangent.x);
+  }
+  return {force_y, moment};
+}
+
+bool find_equilibrium(System& system, std::optional<double> pressing_force, bool free_y, bool free_phi) {
+  const double x = system.start.x;
+  // y for a tilt: the anchor follows the touching height, then the vertical balance
+  const auto settle_height = [&](double phi, double& y) {
+    const std::optional<double> touch = touch_height(system, x, phi);
+    if (pressing_force) {
+      if (!touch) return false;
+      system.y.anchor = *touch - *pressing_force;
+    }
+    if (!free_y) return true;
+    if (!touch) return false;
+    const std::optional<double> height = balanced_height(system, x, phi, *touch);
+    if (height) y = *height;
+    return height.has_value();
+  };
+  if (!free_phi) return settle_height(system.start.phi, system.start.y);
+
+  const auto moment = [&](double phi) {
+    double y = system.start.y;
+    return settle_height(phi, y) ? static_load(system, x, y, phi).moment : NAN;
+  };
+  // from the gripper's own tilt follow the moment until it changes sign
+  const double begin = system.phi.anchor;
+  const double first = moment(begin);
+  if (std::isnan(first)) return false;
+  double low = begin, high = begin;
+  if (first != 0.0) {
+    const double direction = first > 0.0 ? 1.0 : -1.0;
+    double step = 1e-4;
+    for (;;) {
+      high = low + direction * step;
+      if (std::abs(high - begin) > 0.5 * kPi) return false;
+      const double value = moment(high);
+      if (std::isnan(value)) return false;
+      if ((value > 0.0) != (first > 0.0)) break;
+      low = high;
+      step = std::min(1.5 * step, 0.02);
+    }
+  }
+  system.start.phi = first == 0.0 ? begin : bisect(moment, low, high);
+  return settle_height(system.start.phi, system.start.y);
+}
+
+}  // namespace vibratory_alignment

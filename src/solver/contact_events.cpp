@@ -1,0 +1,240 @@
+#include "solver/contact_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/site_rules.h"
+#include "solver/polynomial_roots.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Events closer together than this (relative to their time) are one.
+constexpr double kCoincidence = 4e-16;
+
+class Search {
+ public:
+  Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries)
+      : system_(system), series_(series), segment_(segment), pins_(pins), recoveries_(recoveries),
+        order_(segment.order), duration_(segment.duration) {
+    bound_travel();
+  }
+
+  FoundEvents run(const OutcomeGuards& outcomes) {
+    int index = 0;
+    for (int i = 0; i < kSiteCount; ++i) {
+      const auto site = static_cast<Site>(i);
+      if (!site_in_use(system_, site)) continue;
+      switch (segment_.contacts[i].phase) {
+        case Phase::loaded:
+          guard_loaded(site, segment_.loaded[index++]);
+          break;
+        case Phase::unloaded:
+          guard_unloaded(site);
+          break;
+        case Phase::outside:
+          guard_outside(site);
+          break;
+        case Phase::free:
+          guard_free(site);
+          break;
+      }
+    }
+    if (outcomes.aligned) guard_depth(EventKind::aligned, system_.aligned_depth, true);
+    if (outcomes.inserted) guard_depth(EventKind::inserted, system_.inserted_depth, false);
+    return found_;
+  }
+
+ private:
+  void offer(double time, EventKind kind, Site site, Face face = Face::none) {
+    if (time == kNoRoot) return;
+    const double slack = kCoincidence * time;
+    if (found_.count > 0 && time > found_.time + slack) return;
+    if (found_.count == 0 || time < found_.time - slack) {
+      found_.time = time;
+      found_.count = 0;
+    }
+    if (found_.count == kMaxEvents) return;
+    found_.events[found_.count++] = {kind, site, face};
+  }
+
+  /// Largest way that C and the tilt can go during the segment.
+  void bound_travel() {
+    double power = duration_;
+    for (int k = 1; k <= order_; ++k, power *= duration_) {
+      travel_ += (std::abs(segment_.x[k]) + std::abs(segment_.y[k])) * power;
+      turn_ += std::abs(segment_.phi[k]) * power;
+    }
+  }
+
+  /// True when a site's point surely stays outside during the segment.
+  bool stays_outside(Site site, const Region& region) const {
+    const State state{segment_.x[0], segment_.y[0], segment_.phi[0], 0.0, 0.0, 0.0};
+    const Vec2 p = site_point(system_, state, site);
+    const double reach = is_edge(site) ? std::hypot(p.x, p.y) : std::hypot(system_.half_width, system_.base_distance);
+    const double way = travel_ + turn_ * (reach + travel_);
+    for (int j = 0; j < region.count; ++j)
+      if (region.conditions[j].value(p) + way < 0.0) return true;
+    return false;
+  }
+
+  Series condition_series(const RegionCondition& condition, Site site) {
+    const MotionSeries::Point& p = series_.point(site, segment_);
+    Series g;
+    for (int k = 0; k <= order_; ++k) g[k] = condition.c1 * p.p1[k] + condition.c2 * p.p2[k];
+    g[0] += condition.c0;
+    return g;
+  }
+
+  /// Takes what is left of the base's deformation off a depth.
+  void subtract_recovery(const Recovery& recovery, Series& g) const {
+    double term = recovery.deformation;
+    for (int k = 0; k <= order_; ++k, term *= -recovery.rate / k) g[k] -= term;
+  }
+
+  void guard_limits(Site site, Face face) {
+    const Vec2 p{series_.point(site, segment_).p1[0], series_.point(site, segment_).p2[0]};
+    const Region limits = face_limits(system_, face, p);
+    for (int j = 0; j < limits.count; ++j) {
+      const RegionCondition& limit = limits.conditions[j];
+      offer(first_fall(condition_series(limit, site), order_, duration_, 0), EventKind::run_off, site, limit.face);
+    }
+  }
+
+  void guard_loaded(Site site, const ContactSeries& contact) {
+    const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
+    const SitePins& pins = pins_[static_cast<std::size_t>(site)];
+    offer(first_fall(contact.normal_force, order_, duration_, pins.normal), EventKind::release, site);
+    guard_limits(site, state.face);
+    const double f = system_.friction;
+    Series g;
+    switch (state.slip) {
+      case Slip::none:
+        break;
+      case Slip::plus:
+      case Slip::minus: {
+        const double sign = state.slip == Slip::plus ? 1.0 : -1.0;
+        for (int k = 0; k <= order_; ++k) g[k] = sign * contact.slip_velocity[k];
+        g[0] -= kTanhSaturation * system_.regularization;
+        offer(first_fall(g, order_, duration_, pins.slip), EventKind::slip_reversal, site);
+        break;
+      }
+      case Slip::stick:
+        for (const double sign : {1.0, -1.0}) {
+          for (int k = 0; k < order_; ++k) g[k] = f * contact.normal_force[k] - sign * contact.tangential_force[k];
+          offer(first_fall(g, order_ - 1, duration_, 0), EventKind::slip, site);
+        }
+        break;
+      case Slip::regularized:
+        for (const double sign : {1.0, -1.0}) {
+          for (int k = 0; k <= order_; ++k) g[k] = -sign * contact.slip_velocity[k];
+          g[0] += kTanhSaturation * system_.regularization;
+          const bool pinned = pins.slip > 0 && sign * contact.slip_velocity[0] > 0.0;
+          offer(first_fall(g, order_, duration_, pinned ? pins.slip : 0), EventKind::slip, site);
+        }
+        break;
+    }
+  }
+
+  void guard_unloaded(Site site) {
+    const auto index = static_cast<std::size_t>(site);
+    const Face face = segment_.contacts[index].face;
+    const ContactFrame frame = contact_frame(system_, face);
+    const RegionCondition depth{frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face};
+    const Series d = condition_series(depth, site);
+    offer(first_fall(d, order_, duration_, 0), EventKind::close, site, face);
+    // what would push: k d + h d', or with a base that recovers the part catching up with it
+    Series g;
+    if (system_.recovery) {
+      g = d;
+      subtract_recovery(recoveries_[index], g);
+      for (int k = 0; k <= order_; ++k) g[k] = -g[k];
+      offer(first_fall(g, order_, duration_, pins_[index].normal), EventKind::reload, site);
+    } else {
+      series_.push_series(segment_, face, d, g);
+      for (int k = 0; k < order_; ++k) g[k] = -g[k];
+      offer(first_fall(g, order_ - 1, duration_, pins_[index].normal), EventKind::reload, site);
+    }
+    guard_limits(site, face);
+  }
+
+  void guard_outside(Site site) {
+    const auto index = static_cast<std::size_t>(site);
+    for (int half = 0; half < region_count(site); ++half) {
+      const Region region = site_region(system_, site, half);
+      if (stays_outside(site, region)) continue;
+      Conditions conditions;
+      conditions.count = region.count;
+      for (int j = 0; j < region.count; ++j) {
+        const Face face = region.conditions[j].face;
+        conditions.g[j] = condition_series(region.conditions[j], site);
+        conditions.zeros_at_start[j] = pins_[index].face == face ? 1 : 0;
+        if (recoveries_[index].deformation > 0.0 && recoveries_[index].face == face)
+          subtract_recovery(recoveries_[index], conditions.g[j]);
+      }
+      const Entry entry = first_entry(conditions, order_, duration_);
+      if (entry.time == kNoRoot) continue;
+      const Face face = region.conditions[entry.last].face;
+      const bool touches = is_called_for(system_, face) && (face != Face::floor || over_floor(site, entry.time));
+      offer(entry.time, touches ? EventKind::touch : EventKind::enter, site, face);
+    }
+  }
+
+  /// A corner reaches the floor only inside the slot (or while it presses into a wall).
+  bool over_floor(Site site, double time) {
+    const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
+    if (segment_.contacts[static_cast<std::size_t>(corner)].touching()) return true;
+    return std::abs(value_at(series_.point(site, segment_).p1, order_, time)) <= system_.slot_half_width;
+  }
+
+  void guard_free(Site site) {
+    // free inside: until the point is outside again
+    const Vec2 p{series_.point(site, segment_).p1[0], series_.point(site, segment_).p2[0]};
+    const int half = region_count(site) == 2 && p.x < 0.0 ? 1 : 0;
+    const Region region = site_region(system_, site, half);
+    for (int j = 0; j < region.count; ++j) {
+      const RegionCondition& condition = region.conditions[j];
+      offer(first_fall(condition_series(condition, site), order_, duration_, 0), EventKind::leave, site, condition.face);
+    }
+  }
+
+  /// Both lower corners below `depth` and, if asked, between the walls (a corner that presses into a wall is).
+  void guard_depth(EventKind kind, double depth, bool between_walls) {
+    const double l = system_.slot_half_width;
+    Conditions conditions;
+    conditions.count = 0;
+    const auto add = [&](const RegionCondition& condition, Site site) {
+      conditions.g[conditions.count++] = condition_series(condition, site);
+    };
+    for (const Site site : {Site::b1, Site::b2}) {
+      const Region below{{RegionCondition{0.0, -1.0, -depth, Face::none}}, 1};
+      if (stays_outside(site, below)) return;
+      add(below.conditions[0], site);
+    }
+    for (const Site site : {Site::b1, Site::b2}) {
+      if (!between_walls || segment_.contacts[static_cast<std::size_t>(site)].touching()) continue;
+      add({1.0, 0.0, l, Face::none}, site);
+      add({-1.0, 0.0, l, Face::none}, site);
+    }
+    offer(first_entry(conditions, order_, duration_).time, kind, Site::b1);
+  }
+
+  const System& system_;
+  MotionSeries& series_;
+  Segment& segment_;
+  const Pins& pins_;
+  const Recoveries& recoveries_;
+  int order_;
+  double duration_;
+  double travel_ = 0.0, turn_ = 0.0;
+  FoundEvents found_;
+};
+
+}  // namespace
+
+FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
+                        const Recoveries& recoveries, const OutcomeGuards& outcomes) {
+  return Search(system, series, segment, pins, recoveries).run(outcomes);
+}
+
+}  // namespace vibratory_alignment

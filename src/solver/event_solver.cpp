@@ -1,0 +1,246 @@
+#include "solver/event_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "solver/step_size.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Flight: order of the series in which events are sought, and their truncation error relative to the motion.
+constexpr int kFlightOrder = 20;
+constexpr double kFlightTolerance = 1e-16;
+
+/// Truncation error of a contact step as a share of the tolerance asked for: what a step leaves behind is amplified by
+/// the impacts after it and adds up in the energy.
+constexpr double kStepShare = 1e-3;
+
+/// Events in a row that advance time by nothing: more than this is no motion but a contradiction.
+constexpr int kMaxEventsWithoutProgress = 100;
+
+/// A base deformation that is nothing (relative to lengths of order one).
+constexpr double kNoDeformation = 1e-18;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+DriveForms forms_at(const std::vector<Drive>& drives, const Instant& t) {
+  DriveForms forms;
+  for (const Drive& drive : drives) {
+    forms.direction[static_cast<std::size_t>(forms.count)] = drive.direction();
+    forms.form[static_cast<std::size_t>(forms.count++)] = drive.form_at(t);
+  }
+  return forms;
+}
+
+double time_to_kink(const std::vector<Drive>& drives, const Instant& t) {
+  double least = kInfinity;
+  for (const Drive& drive : drives) least = std::min(least, drive.time_to_kink(t));
+  return least;
+}
+
+bool any_loaded(const ContactStates& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
+}
+
+bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
+
+}  // namespace
+
+EventSolver::EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance,
+                         long step_limit)
+    : system_(system), tolerance_(std::max(kStepShare * tolerance, kFlightTolerance)),
+      contact_order_(series_order(tolerance_)), step_limit_(step_limit),
+      series_(system_), free_x_(excitations.size()), free_y_(excitations.size()), free_phi_(excitations.size()) {
+  if (excitations.size() > DriveForms::kMax)
+    throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
+  for (const Excitation& excitation : excitations) drives_.emplace_back(excitation, now_);
+  next_drives_ = drives_;
+  state_ = system_.start;
+  outcomes_.aligned = true;
+  outcomes_.inserted = system_.has_inserted_depth;
+}
+
+void EventSolver::fail(const std::string& reason) const {
+  std::ostringstream message;
+  message << reason << " at time " << now_.value() << " (dimensionless), x = " << state_.x << ", y = " << state_.y
+          << ", phi = " << state_.phi;
+  throw SolverFailure(message.str());
+}
+
+void EventSolver::begin_flight(const DriveForms& drives) {
+  flight_start_ = now_;
+  free_x_.begin(system_.x, state_.x, state_.vx, 0.0);
+  free_y_.begin(system_.y, state_.y, state_.vy, -system_.weight);
+  free_phi_.begin(system_.phi, state_.phi, state_.omega, 0.0);
+  for (int i = 0; i < drives.count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    FreeMotion& axis = drives.direction[index] == Direction::x   ? free_x_
+                       : drives.direction[index] == Direction::y ? free_y_
+                                                                 : free_phi_;
+    axis.add(drives.form[index]);
+  }
+  for (FreeMotion* axis : {&free_x_, &free_y_, &free_phi_}) axis->settle();
+  in_flight_ = true;
+}
+
+/// State in flight at `duration` after the segment's start: closed form from the start of the flight, or the series
+/// where that is more exact.
+State EventSolver::flight_state(double duration) const {
+  State state = state_at(segment_, duration);
+  const double t = (segment_.start - flight_start_) + duration;
+  if (free_x_.exact()) free_x_.at(t, state.x, state.vx);
+  if (free_y_.exact()) free_y_.at(t, state.y, state.vy);
+  if (free_phi_.exact()) free_phi_.at(t, state.phi, state.omega);
+  return state;
+}
+
+/// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
+/// nears +-1 as exp(-2|V|/eps), whose series shows its terms only within a few eps.
+double EventSolver::tanh_layer_step() const {
+  double shortest = kInfinity;
+  for (int i = 0; i < segment_.loaded_count; ++i) {
+    const ContactSeries& contact = segment_.loaded[static_cast<std::size_t>(i)];
+    if (segment_.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::regularized) continue;
+    const double eps = system_.regularization;
+    const double reach = std::min(0.6 * std::hypot(contact.slip_velocity[0], 1.57 * eps), 4.0 * eps);
+    const double v1 = std::abs(contact.slip_velocity[1]), v2 = std::abs(contact.slip_velocity[2]);
+    // v1 h + v2 h^2 = reach
+    const double step = 2.0 * reach / (v1 + std::sqrt(v1 * v1 + 4.0 * v2 * reach));
+    if (step < shortest) shortest = step;
+  }
+  return shortest;
+}
+
+void EventSolver::go_to_end() {
+  const Instant end = segment_.start + segment_.duration;
+  // events may coincide, but not for ever
+  const bool progress = end.high != now_.high || end.low != now_.low;
+  events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
+  now_ = end;
+  if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
+  state_ = segment_.end;
+  mode_ = next_mode_;
+  drives_ = next_drives_;
+  counts_.events += segment_.event_count;
+  for (int i = 0; i < segment_.event_count; ++i) {
+    const EventKind kind = segment_.events[static_cast<std::size_t>(i)].kind;
+    if (kind == EventKind::drive_kink) in_flight_ = false;
+    if (kind == EventKind::aligned) outcomes_.aligned = false;
+    if (kind == EventKind::inserted) outcomes_.inserted = false;
+  }
+}
+
+const Segment& EventSolver::advance(double limit) {
+  if (started_) {
+    go_to_end();
+  } else {
+    mode_ = start_mode(system_, state_, forms_at(drives_, now_));
+    started_ = true;
+  }
+  if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
+
+  // the motion from here on as power series
+  const DriveForms drives = forms_at(drives_, now_);
+  const bool contact = any_loaded(mode_.contacts);
+  segment_.start = now_;
+  segment_.contacts = mode_.contacts;
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    segment_.contacts[i].base_deformation = mode_.recoveries[i].deformation;
+    segment_.contacts[i].recovery_rate = mode_.recoveries[i].rate;
+  }
+  double step = 0.0;
+  if (contact) {
+    in_flight_ = false;
+    state_ = hold_sticking(system_, state_, mode_.contacts);
+    series_.expand_contact(state_, drives, contact_order_, segment_);
+    step = std::min(series_step(segment_, tolerance_), tanh_layer_step());
+  } else {
+    if (!in_flight_) begin_flight(drives);
+    series_.expand_free(state_, drives, kFlightOrder, segment_);
+    step = series_step(segment_, kFlightTolerance);
+  }
+  counts_.rhs_evaluations += segment_.order;
+  for (const Recovery& recovery : mode_.recoveries)
+    if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
+
+  // it lasts to the first of: end of the step, limit, kink of an excitation, event
+  const double to_limit = std::max(0.0, limit - now_);
+  const double to_kink = time_to_kink(drives_, now_);
+  segment_.duration = std::min({step, to_limit, to_kink});
+  if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
+  FoundEvents found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_);
+  if (found.count > 0) segment_.duration = found.time;
+  const bool kink = segment_.duration == to_kink;
+  if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
+    fail("the step has become too short");
+
+  segment_.end = contact ? state_at(segment_, segment_.duration) : flight_state(segment_.duration);
+  if (!is_finite(segment_.end)) fail("the motion is no longer finite");
+  prepare_next(found, kink);
+  return segment_;
+}
+
+void EventSolver::prepare_next(FoundEvents& found, bool kink) {
+  const Instant end = segment_.start + segment_.duration;
+  next_mode_ = mode_;
+  for (Recovery& recovery : next_mode_.recoveries) {
+    recovery.deformation *= std::exp(-recovery.rate * segment_.duration);
+    if (recovery.deformation < kNoDeformation) recovery = {};
+  }
+  next_drives_ = drives_;
+  if (kink)
+    for (Drive& drive : next_drives_)
+      if (drive.time_to_kink(segment_.start) <= segment_.duration) drive.pass_kink();
+
+  segment_.event_count = 0;
+  if (found.count > 0 || kink) next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), found);
+  else next_mode_.pins = {};
+  for (int i = 0; i < found.count; ++i)
+    segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
+  if (kink && segment_.event_count < kMaxEvents)
+    segment_.events[static_cast<std::size_t>(segment_.event_count++)] = {EventKind::drive_kink, Site::a1, Face::none};
+}
+
+void EventSolver::cut(double duration) {
+  segment_.duration = duration;
+  segment_.end = segment_.loaded_count > 0 ? state_at(segment_, duration) : flight_state(duration);
+  FoundEvents none;
+  prepare_next(none, false);
+}
+
+void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
+  std::vector<Drive>& drives = started_ ? next_drives_ : drives_;
+  const Instant when = started_ ? segment_.start + segment_.duration : now_;
+  for (std::size_t i = 0; i < drives.size() && i < excitations.size(); ++i) drives[i].change(excitations[i], when);
+  in_flight_ = false;
+  // a jump of the excitation may end sticking
+  FoundEvents none;
+  if (started_) next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, when), none);
+}
+
+void EventSolver::set_anchor_y(double anchor_y) {
+  system_.y.anchor = anchor_y;
+  in_flight_ = false;
+  FoundEvents none;
+  if (started_)
+    next_mode_ = apply_events(system_, segment_, next_mode_,
+                              forms_at(next_drives_, segment_.start + segment_.duration), none);
+}
+
+std::unique_ptr<Solver> make_solver(const System& system, const std::vector<Excitation>& excitations,
+                                    const SolverSettings& settings) {
+  if (settings.name == "event")
+    return std::make_unique<EventSolver>(system, excitations, settings.tolerance, settings.step_limit);
+  throw std::invalid_argument("solver '" + settings.name + "' is not available in this build; available: event");
+}
+
+State state_at(const Segment& segment, double t) {
+  const int order = segment.order;
+  return {value_at(segment.x, order, t),  value_at(segment.y, order, t),  value_at(segment.phi, order, t),
+          value_at(segment.vx, order, t), value_at(segment.vy, order, t), value_at(segment.omega, order, t)};
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,54 @@
+// Solver `event`: the hybrid step of docs/hybrid_step.md. Flight in closed form, contact by power series of high order
+// under error control, every event located to roundoff as a root of the series.
+#pragma once
+
+#include "mechanics/free_motion.h"
+#include "solver/solver.h"
+#include "solver/transitions.h"
+
+namespace vibratory_alignment {
+
+class EventSolver final : public Solver {
+ public:
+  EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance, long step_limit);
+
+  const Segment& advance(double limit) override;
+  const Segment& segment() const override { return segment_; }
+  void cut(double duration) override;
+  void set_excitations(const std::vector<Excitation>& excitations) override;
+  void set_anchor_y(double anchor_y) override;
+  const SolverCounts& counts() const override { return counts_; }
+
+ private:
+  void begin_flight(const DriveForms& drives);
+  State flight_state(double duration) const;
+  double tanh_layer_step() const;
+  /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
+  void prepare_next(FoundEvents& found, bool kink);
+  void go_to_end();
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  System system_;
+  double tolerance_;
+  int contact_order_;
+  long step_limit_;
+
+  Instant now_;                 ///< start of the current segment
+  State state_;                 ///< at now_
+  ContactMode mode_, next_mode_;               ///< during the segment, and from its end on
+  std::vector<Drive> drives_, next_drives_;
+  OutcomeGuards outcomes_;
+  bool started_ = false;
+
+  MotionSeries series_;
+  Segment segment_;
+
+  bool in_flight_ = false;      ///< the closed forms below are those of the present flight
+  Instant flight_start_;
+  FreeMotion free_x_, free_y_, free_phi_;
+
+  int events_without_progress_ = 0;
+  SolverCounts counts_;
+};
+
+}  // namespace vibratory_alignment

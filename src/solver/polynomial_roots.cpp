@@ -1,0 +1,154 @@
+#include "solver/polynomial_roots.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibratory_alignment {
+namespace {
+
+/// Halvings after which an undecided interval is narrower than the resolution of a double.
+constexpr int kMaxHalvings = 52;
+
+/// Bounds of a polynomial on [0, 1].
+struct Range {
+  double low, high;
+};
+
+Range range_on_unit(const Series& g, int order) {
+  Range range{g[0], g[0]};
+  for (int k = 1; k <= order; ++k) (g[k] < 0.0 ? range.low : range.high) += g[k];
+  return range;
+}
+
+/// Bounds of the derivative on [0, 1].
+Range slope_on_unit(const Series& g, int order) {
+  Range range{g[1], g[1]};
+  for (int k = 2; k <= order; ++k) (g[k] < 0.0 ? range.low : range.high) += k * g[k];
+  return range;
+}
+
+/// g(t h) as a polynomial on [0, 1].
+void scale_to_unit(const Series& g, int order, double h, Series& unit) {
+  double power = 1.0;
+  for (int k = 0; k <= order; ++k, power *= h) unit[k] = g[k] * power;
+}
+
+/// The left and right half of [0, 1], each as a polynomial on [0, 1].
+void left_half(const Series& g, int order, Series& half) { scale_to_unit(g, order, 0.5, half); }
+
+void right_half(const Series& g, int order, Series& half) {
+  // g((1 + t)/2): scale, then shift by 1 with repeated synthetic division
+  scale_to_unit(g, order, 0.5, half);
+  for (int i = 0; i < order; ++i)
+    for (int k = order - 1; k >= i; --k) half[k] += half[k + 1];
+}
+
+/// Root of g on [0, 1], where g(0) > 0 > g(1) and g falls throughout: Newton kept inside a shrinking bracket.
+double falling_root(const Series& g, int order) {
+  double low = 0.0, high = 1.0;
+  const double total = std::max(-value_at(g, order, 1.0), 0.0) + g[0];
+  double t = g[0] / total;
+  for (int i = 0; i < 100; ++i) {
+    double value = g[order], slope = 0.0;
+    for (int k = order - 1; k >= 0; --k) {
+      slope = slope * t + value;
+      value = value * t + g[k];
+    }
+    (value > 0.0 ? low : high) = t;
+    double next = t - value / slope;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (std::abs(next - t) <= 1e-16 * t || next == t) return next;
+    t = next;
+  }
+  return t;
+}
+
+/// First fall below zero on [0, 1] of a polynomial with g(0) > 0, or kNoRoot.
+double first_fall_on_unit(const Series& g, int order, int halvings) {
+  if (range_on_unit(g, order).low > 0.0) return kNoRoot;
+  const Range slope = slope_on_unit(g, order);
+  if (slope.low >= 0.0) return kNoRoot;
+  if (slope.high <= 0.0) return value_at(g, order, 1.0) < 0.0 ? falling_root(g, order) : kNoRoot;
+  if (halvings == kMaxHalvings) return value_at(g, order, 1.0) < 0.0 ? 1.0 : kNoRoot;
+  Series half;
+  left_half(g, order, half);
+  const double left = first_fall_on_unit(half, order, halvings + 1);
+  if (left != kNoRoot) return 0.5 * left;
+  right_half(g, order, half);
+  if (half[0] <= 0.0) return 0.5;
+  const double right = first_fall_on_unit(half, order, halvings + 1);
+  return right == kNoRoot ? kNoRoot : 0.5 + 0.5 * right;
+}
+
+/// Divides out `zeros` roots at t = 0.
+int deflate(Series& g, int order, int zeros) {
+  for (int k = 0; k + zeros <= order; ++k) g[k] = g[k + zeros];
+  return order - zeros;
+}
+
+Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kMaxConditions>& orders, int halvings) {
+  int undecided = 0, last = 0;
+  for (int i = 0; i < conditions.count; ++i) {
+    const Range range = range_on_unit(conditions.g[i], orders[i]);
+    if (range.high <= 0.0) return {};
+    if (range.low <= 0.0) {
+      ++undecided;
+      last = i;
+    }
+  }
+  if (undecided == 0) return {0.0, last};
+  if (undecided == 1) {
+    if (conditions.g[last][0] > 0.0) return {0.0, last};
+    // the first rise of the one undecided condition
+    Series negative = conditions.g[last];
+    for (int k = 0; k <= orders[last]; ++k) negative[k] = -negative[k];
+    return {first_fall(negative, orders[last], 1.0, 0), last};
+  }
+  if (halvings == kMaxHalvings) {
+    for (int i = 0; i < conditions.count; ++i)
+      if (value_at(conditions.g[i], orders[i], 1.0) <= 0.0) return {};
+    return {1.0, last};
+  }
+  Conditions half;
+  half.count = conditions.count;
+  for (int i = 0; i < conditions.count; ++i) left_half(conditions.g[i], orders[i], half.g[i]);
+  Entry entry = first_entry_on_unit(half, orders, halvings + 1);
+  if (entry.time != kNoRoot) {
+    entry.time *= 0.5;
+    return entry;
+  }
+  for (int i = 0; i < conditions.count; ++i) right_half(conditions.g[i], orders[i], half.g[i]);
+  entry = first_entry_on_unit(half, orders, halvings + 1);
+  if (entry.time != kNoRoot) entry.time = 0.5 + 0.5 * entry.time;
+  return entry;
+}
+
+}  // namespace
+
+double first_fall(const Series& g, int order, double h, int zeros_at_start) {
+  Series unit{};
+  scale_to_unit(g, order, h, unit);
+  if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);
+  if (unit[0] <= 0.0 && zeros_at_start == 0) order = deflate(unit, order, 1);
+  // what starts at an exact zero is judged by its first coefficient that is not
+  while (order > 0 && unit[0] == 0.0) order = deflate(unit, order, 1);
+  if (unit[0] < 0.0) return 0.0;
+  if (order == 0) return kNoRoot;
+  const double root = first_fall_on_unit(unit, order, 0);
+  return root == kNoRoot ? kNoRoot : root * h;
+}
+
+Entry first_entry(const Conditions& conditions, int order, double h) {
+  Conditions unit;
+  unit.count = conditions.count;
+  std::array<int, kMaxConditions> orders{};
+  for (int i = 0; i < conditions.count; ++i) {
+    scale_to_unit(conditions.g[i], order, h, unit.g[i]);
+    orders[i] = deflate(unit.g[i], order, conditions.zeros_at_start[i]);
+  }
+  Entry entry = first_entry_on_unit(unit, orders, 0);
+  if (entry.time != kNoRoot) entry.time *= h;
+  return entry;
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,68 @@
+// A segment: one smooth piece of the motion, as power series in the time since its start.
+// Every solver produces segments; everything that looks at a motion (samples, peaks, energy, outcomes) reads them.
+#pragma once
+
+#include <array>
+
+#include "mechanics/contact.h"
+#include "mechanics/instant.h"
+#include "mechanics/state.h"
+#include "solver/series.h"
+
+namespace vibratory_alignment {
+
+enum class EventKind {
+  touch,         ///< a contact starts out of flight (an impact)
+  reload,        ///< N rises from zero while the depth is still > 0
+  release,       ///< N falls to zero
+  close,         ///< the depth returns to zero
+  run_off,       ///< the foot leaves the end of the face
+  slip_reversal, ///< V = 0, slips on in the other direction
+  stick,         ///< V = 0 and friction holds
+  slip,          ///< friction no longer holds
+  enter,         ///< a point enters the other body through a face without contact
+  leave,         ///< ... and leaves it
+  drive_kink,    ///< jump or kink of an excitation
+  aligned,       ///< both lower corners in the slot, below the asked depth
+  inserted       ///< the floor or the asked depth is reached
+};
+
+struct Event {
+  EventKind kind = EventKind::touch;
+  Site site = Site::a1;
+  Face face = Face::none;  ///< touched or entered (touch, enter), or through which a point leaves (run_off, leave)
+};
+
+constexpr int kMaxEvents = 16;
+
+/// Force series of one loaded contact during a segment.
+struct ContactSeries {
+  Site site = Site::a1;
+  Series depth{};             ///< d
+  Series normal_force{};      ///< N
+  Series tangential_force{};  ///< T, along t (MODEL.md "Contact")
+  Series slip_velocity{};     ///< V
+};
+
+struct Segment {
+  Instant start;
+  double duration = 0.0;
+  int order = 0;                         ///< highest power that the series hold
+  Series x{}, y{}, phi{};                ///< positions
+  Series vx{}, vy{}, omega{};            ///< velocities
+  Series cos_phi{}, sin_phi{};
+  Series drive_x{}, drive_y{}, drive_phi{};  ///< excitation forces and moment
+  ContactStates contacts;                ///< state of every site during the segment
+  int loaded_count = 0;
+  std::array<ContactSeries, kSiteCount> loaded;  ///< the first loaded_count are valid
+  State end;                             ///< the state at its end (closed form in flight)
+  int event_count = 0;
+  std::array<Event, kMaxEvents> events;  ///< what happens at its end
+
+  double end_time() const { return (start + duration).value(); }
+};
+
+/// State at `t` after the start, 0 <= t <= duration.
+State state_at(const Segment& segment, double t);
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,32 @@
+// Truncated power series in the time since the start of a segment: c[0] + c[1] t + c[2] t^2 + ...
+#pragma once
+
+#include <array>
+
+namespace vibratory_alignment {
+
+/// Highest power kept anywhere; two more places serve positions, which are known two orders ahead of forces.
+constexpr int kMaxOrder = 24;
+using Series = std::array<double, kMaxOrder + 3>;
+
+/// Coefficient k of the product of two series.
+inline double product_term(const Series& a, const Series& b, int k) {
+  double sum = 0.0;
+  for (int j = 0; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
+
+/// Value at t of the series up to power `order` (Horner).
+inline double value_at(const Series& series, int order, double t) {
+  double value = series[order];
+  for (int k = order - 1; k >= 0; --k) value = value * t + series[k];
+  return value;
+}
+
+/// Integral over [from, to] of the series up to power `order`.
+double integral(const Series& series, int order, double from, double to);
+
+/// Largest value on [from, to] of the series up to power `order`.
+double largest_value(const Series& series, int order, double from, double to);
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,49 @@
+#include "solver/step_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr int kLeadingTerms = 4;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Base-2 logarithm good to 0.1, the same on every machine.
+double rough_log2(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return exponent + 2.0 * (mantissa - 1.0);
+}
+
+/// log2 of the time at which term k has fallen to `tolerance` times the largest leading term.
+double log2_step(const Series& v, int k, double log2_tolerance) {
+  if (v[k] == 0.0) return kInfinity;
+  const double last = rough_log2(std::abs(v[k]));
+  double longest = -kInfinity;
+  for (int j = 0; j < kLeadingTerms; ++j)
+    if (v[j] != 0.0) longest = std::max(longest, (log2_tolerance + rough_log2(std::abs(v[j])) - last) / (k - j));
+  return longest;
+}
+
+}  // namespace
+
+double series_step(const Segment& segment, double tolerance) {
+  const double log2_tolerance = rough_log2(tolerance);
+  double shortest = kInfinity;
+  for (const Series* v : {&segment.vx, &segment.vy, &segment.omega}) {
+    const int order = segment.order;
+    // an axis whose leading terms vanish has no scale of its own
+    if ((*v)[0] == 0.0 && (*v)[1] == 0.0 && (*v)[2] == 0.0 && (*v)[3] == 0.0) continue;
+    shortest = std::min({shortest, log2_step(*v, order, log2_tolerance), log2_step(*v, order - 1, log2_tolerance)});
+  }
+  return std::exp2(shortest);
+}
+
+int series_order(double tolerance) {
+  const double digits = -std::log10(tolerance);
+  return std::clamp(static_cast<int>(std::ceil(5.0 + digits)), 8, kMaxOrder - 2);
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,16 @@
+// Length of a step from the power series of the motion itself.
+#pragma once
+
+#include "solver/segment.h"
+
+namespace vibratory_alignment {
+
+/// Longest time over which the last two terms of every velocity's series stay below `tolerance` times that velocity's
+/// largest leading term: the truncation error relative to each axis' own motion, whatever its scale.
+/// Infinity for an axis at rest.
+double series_step(const Segment& segment, double tolerance);
+
+/// Order of the series for a tolerance: each further order costs its share, each further digit is worth so many.
+int series_order(double tolerance);
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,77 @@
+#include "trial/contact_watch.h"
+
+#include <algorithm>
+
+#include "mechanics/contact_frame.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// A touch this early belongs to the start: the trial begins in contact.
+constexpr double kStart = 1e-12;
+
+/// Room for changes of mode without allocation.
+constexpr std::size_t kExpectedChanges = 1024;
+
+}  // namespace
+
+ContactWatch::ContactWatch(const System& system, double period) : system_(system), period_(period) {
+  changes_.reserve(kExpectedChanges);
+}
+
+void ContactWatch::book(const Segment& segment) {
+  book_peaks(segment);
+  follow_mode(segment);
+  for (int i = 0; i < segment.event_count; ++i)
+    if (segment.events[i].kind == EventKind::touch) book_touch(segment, segment.events[i]);
+}
+
+void ContactWatch::book_peaks(const Segment& segment) {
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[i];
+    double& peak = peaks_[static_cast<std::size_t>(spot_of(contact.site))];
+    // the maximum is looked for only where it can be a new one
+    double bound = contact.normal_force[0], power = 1.0;
+    for (int k = 1; k <= segment.order; ++k) {
+      power *= segment.duration;
+      bound += std::max(0.0, contact.normal_force[k] * power);
+    }
+    if (bound > peak)
+      peak = std::max(peak, largest_value(contact.normal_force, segment.order, 0.0, segment.duration));
+  }
+}
+
+void ContactWatch::book_touch(const Segment& segment, const Event& touch) {
+  const double time = segment.end_time();
+  if (time <= kStart) return;
+  ++impacts_[static_cast<std::size_t>(spot_of(touch.site))];
+  if (first_) return;
+  const ContactKinematics k = contact_kinematics(system_, segment.end, touch.site, touch.face);
+  first_ = FirstContact{time, spot_of(touch.site), segment.end, k.depth_rate, k.slip_velocity};
+}
+
+void ContactWatch::follow_mode(const Segment& segment) {
+  const bool touching = std::any_of(segment.contacts.begin(), segment.contacts.end(),
+                                    [](const ContactState& contact) { return contact.touching(); });
+  const double start = segment.start.value();
+  if (touching && !touching_) {
+    // contact regained: the flight before it was a loss
+    if (ever_touched_) note(Mode::impact, contact_end_);
+    contact_start_ = start;
+  }
+  if (touching_ && !touching) contact_end_ = start;
+  if (touching && segment.end_time() - contact_start_ > period_) note(Mode::nonimpact, contact_start_);
+  touching_ = touching;
+  ever_touched_ = ever_touched_ || touching;
+}
+
+void ContactWatch::note(Mode mode, double time) {
+  if (changes_.empty() || changes_.back().mode != mode) changes_.push_back({time, mode});
+}
+
+Mode ContactWatch::mode() const {
+  if (changes_.empty()) return ever_touched_ ? Mode::nonimpact : Mode::none;
+  return changes_.size() == 1 ? changes_.front().mode : Mode::mixed;
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,32 @@
+// Energy ledger of a trial (MODEL.md "Energy ledger"), integrated from the segments' series: an account of its own that
+// does not use the equations of motion, so that its residual judges them.
+#pragma once
+
+#include "mechanics/system.h"
+#include "solver/segment.h"
+#include "trial/outcome.h"
+
+namespace vibratory_alignment {
+
+class EnergyAccount {
+ public:
+  explicit EnergyAccount(const System& system) : system_(system) {}
+
+  /// Books a segment that has been passed to its end.
+  void book(const Segment& segment);
+  /// The gripper's anchor has moved: the energy that this puts into the spring counts as work of the excitation.
+  void move_anchor_y(double anchor_y, const State& state);
+  EnergyLedger ledger() const;
+
+ private:
+  double mechanical(const State& state) const;
+  void book_contacts(const Segment& segment);
+
+  System system_;
+  EnergyLedger ledger_;
+  std::array<double, kSiteCount> base_energy_{};     ///< at the end of the last segment
+  std::array<double, kSiteCount> base_stiffness_{};  ///< k(n) when last loaded
+  bool started_ = false;
+};
+
+}  // namespace vibratory_alignment

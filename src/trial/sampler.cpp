@@ -1,0 +1,135 @@
+#include "trial/sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/contact_frame.h"
+#include "mechanics/system.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// World components of a contact's force as series.
+void force_series(const ContactFrame& frame, bool turning, const ContactSeries& contact, const Segment& segment,
+                  Series& fx, Series& fy) {
+  for (int k = 0; k <= segment.order; ++k) {
+    // components along the frame's own axes
+    const double f1 = frame.n1 * contact.normal_force[k] + frame.t1() * contact.tangential_force[k];
+    const double f2 = frame.n2 * contact.normal_force[k] + frame.t2() * contact.tangential_force[k];
+    fx[k] = f1;
+    fy[k] = f2;
+  }
+  if (!turning) return;
+  const Series f1 = fx, f2 = fy;
+  for (int k = 0; k <= segment.order; ++k) {
+    fx[k] = product_term(f1, segment.cos_phi, k) - product_term(f2, segment.sin_phi, k);
+    fy[k] = product_term(f1, segment.sin_phi, k) + product_term(f2, segment.cos_phi, k);
+  }
+}
+
+}  // namespace
+
+Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
+    : simulation_(simulation), system_(make_system(simulation.scene())), interval_(interval), with_events_(with_events) {}
+
+/// Books peaks and impulses of the current segment up to `local_time`.
+void Sampler::integrate_to(double local_time) {
+  if (!(local_time > integrated_to_)) return;
+  const Segment& segment = simulation_.segment();
+  Series fx{}, fy{};
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
+    const auto site = static_cast<std::size_t>(contact.site);
+    const Face face = segment.contacts[site].face;
+    ContactSample& pending = pending_[site];
+    force_series(contact_frame(system_, face), is_part_face(face), contact, segment, fx, fy);
+    const int order = segment.order;
+    pending.impulse_x += integral(fx, order, integrated_to_, local_time);
+    pending.impulse_y += integral(fy, order, integrated_to_, local_time);
+    pending.normal_impulse += integral(contact.normal_force, order, integrated_to_, local_time);
+    pending.peak_normal_force = std::max(
+        pending.peak_normal_force, largest_value(contact.normal_force, order, integrated_to_, local_time));
+  }
+  integrated_to_ = local_time;
+}
+
+/// Reads the sample at `local_time` off the current segment and takes over what is pending.
+void Sampler::read(double time, double local_time, Sample& sample) {
+  const Segment& segment = simulation_.segment();
+  integrate_to(local_time);
+  sample.time = time;
+  sample.is_event = sample.is_last = false;
+  sample.state = local_time == segment.duration ? segment.end : state_at(segment, local_time);
+  sample.contacts = pending_;
+  pending_ = {};
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    ContactSample& contact = sample.contacts[i];
+    contact.state = segment.contacts[i];
+    if (!contact.state.touching()) continue;
+    const ContactKinematics k = contact_kinematics(system_, sample.state, static_cast<Site>(i), contact.state.face);
+    contact.depth = k.depth;
+    contact.normal_x = k.normal.x;
+    contact.normal_y = k.normal.y;
+    contact.point_x = sample.state.x + k.lever.x;
+    contact.point_y = sample.state.y + k.lever.y;
+  }
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& series = segment.loaded[static_cast<std::size_t>(i)];
+    ContactSample& contact = sample.contacts[static_cast<std::size_t>(series.site)];
+    contact.normal_force = std::max(0.0, value_at(series.normal_force, segment.order, local_time));
+    contact.tangential_force = value_at(series.tangential_force, segment.order, local_time);
+    contact.force_x = contact.normal_force * contact.normal_x + contact.tangential_force * contact.normal_y;
+    contact.force_y = contact.normal_force * contact.normal_y - contact.tangential_force * contact.normal_x;
+  }
+  for (int i = 0; i < kSpotCount; ++i)
+    sample.impacts[static_cast<std::size_t>(i)] = simulation_.impacts(static_cast<Spot>(i));
+  sample.mode = simulation_.mode();
+  sample.misalignment = std::abs(sample.state.x);
+  const double clearance = simulation_.scene().slot.clearance, start = std::abs(system_.start.x);
+  sample.progress = start > clearance ? std::clamp((start - sample.misalignment) / (start - clearance), 0.0, 1.0) : 1.0;
+}
+
+bool Sampler::next(Sample& sample) {
+  if (finished_) return false;
+  if (!started_) {
+    started_ = true;
+    if (!simulation_.advance()) {
+      finished_ = true;
+      return false;
+    }
+  }
+  for (;;) {
+    const Segment& segment = simulation_.segment();
+    const double target = static_cast<double>(index_) * interval_;
+    const double end = segment.end_time();
+    if (target < end) {
+      const double local = std::clamp(target - segment.start, 0.0, segment.duration);
+      read(target, local, sample);
+      time_ = target;
+      ++index_;
+      return true;
+    }
+    // the segment ends first, or here
+    const bool wanted = target == end || (with_events_ && segment.event_count > 0);
+    const bool is_event = segment.event_count > 0;
+    integrate_to(segment.duration);
+    const auto kept = pending_;
+    read(end, segment.duration, sample);
+    finished_ = !simulation_.advance();
+    integrated_to_ = 0.0;
+    sample.is_event = is_event && target != end;
+    sample.is_last = finished_;
+    if (target == end) {
+      ++index_;
+      time_ = target;
+    }
+    if (finished_ || (wanted && end > last_)) {
+      last_ = end;
+      return true;
+    }
+    // not a sample: what was pending still is
+    pending_ = kept;
+  }
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,58 @@
+// One trial while it runs: solver plus everything that watches it (impacts, peaks, mode, energy, outcome).
+// Front ends drive it segment by segment, or through a Sampler at regular instants.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "model/scene.h"
+#include "solver/segment.h"
+#include "trial/outcome.h"
+
+namespace vibratory_alignment {
+
+struct SimulationOptions {
+  bool energy = true;           ///< keep the ledger
+  std::optional<double> until;  ///< run exactly to this time, whatever the outcome
+};
+
+class Simulation {
+ public:
+  /// Throws SceneError when the scene has no start (no y_touch, no static equilibrium) and std::invalid_argument for an
+  /// unknown solver. Allocates here and nowhere later.
+  explicit Simulation(const Scene& scene, const SimulationOptions& options = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Books the current segment (peaks, energy, outcome) and computes the next one. False when the trial has ended.
+  bool advance();
+
+  /// The segment that the motion is in; valid after the first advance().
+  const Segment& segment() const;
+
+  /// Ends the current segment at time t inside it, so that changes enter at t. The next advance() starts there.
+  void cut(double t);
+
+  /// Changes of the running excitation and press; call them between cut() and advance() or before the first advance().
+  /// They enter where the current segment ends. The phase of an excitation stays continuous when its frequency changes.
+  void set_excitations(const std::vector<Excitation>& excitations);
+  void set_pressing_force(double pressing_force);
+
+  const Scene& scene() const;
+  /// End of what has been booked so far.
+  double time() const;
+  State state() const;
+  bool ended() const;
+  Mode mode() const;                 ///< mode up to now
+  long impacts(Spot spot) const;
+  /// The result so far; final once ended() is true.
+  TrialResult result() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vibratory_alignment
