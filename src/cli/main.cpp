@@ -1,0 +1,82 @@
+// `align`, the command line of the package: picks the subcommand, turns exceptions into messages and exit status.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/errors.h"
+#include "cli/trial_command.h"
+#include "model/scene_loader.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr Command kCommands[] = {
+    {"trial", "Run one trial of a scene, without ROS, as fast as it goes", set_up_trial},
+};
+
+constexpr char kDescription[] =
+    "Vibratory alignment of a part over a slot: simulates a part that a compliant gripper presses on a base and "
+    "shakes\n"
+    "until it slips into its slot.";
+
+constexpr char kFooter[] =
+    "`align COMMAND --help` explains a command. To begin with: align trial fig2\n"
+    "Exit status: 0 it ran, whatever the outcome; 1 it failed while running; 2 bad usage or bad scene.";
+
+constexpr std::size_t kOptionColumn = 28;
+
+int fail(int status, const char* message) {
+  std::fprintf(stderr, "align: %s\n", message);
+  return status;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(kDescription, "align");
+  app.footer(kFooter);
+  app.get_formatter()->column_width(kOptionColumn);
+  app.set_version_flag("--version", std::string("align ") + VIBRATORY_ALIGNMENT_VERSION);
+  app.require_subcommand(0, 1);
+
+  std::vector<std::pair<const CLI::App*, std::function<int()>>> runners;
+  for (const Command& command : kCommands) {
+    CLI::App* const subcommand = app.add_subcommand(command.name, command.summary);
+    runners.emplace_back(subcommand, command.set_up(*subcommand));
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::string command = "align";
+    for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
+    std::fprintf(stderr, "align: %s\nTry `%s --help`.\n", error.what(), command.c_str());
+    return kExitUsage;
+  }
+  for (const auto& [subcommand, runner] : runners) {
+    if (subcommand->parsed()) return runner();
+  }
+  std::fputs(app.help().c_str(), stdout);
+  return kExitRan;
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
+
+int main(int argc, char** argv) {
+  using namespace vibratory_alignment;
+  try {
+    return run(argc, argv);
+  } catch (const SceneError& error) {
+    std::fprintf(stderr, "align: the scene is refused:\n%s\n", error.what());
+    return kExitUsage;
+  } catch (const UsageError& error) {
+    return fail(kExitUsage, error.what());
+  } catch (const std::exception& error) {
+    return fail(kExitFailed, error.what());
+  }
+}

@@ -1,0 +1,56 @@
+#include "cli/output_path.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "cli/errors.h"
+
+namespace vibratory_alignment {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& path, const std::string& reason) {
+  throw UsageError(option + ": " + path + ": cannot be written: " + reason);
+}
+
+}  // namespace
+
+OutputPath::OutputPath(const std::string& option, const std::string& path) : path_(path), target_(path) {
+  if (path.empty()) throw UsageError(option + ": the name of the file is empty");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) refuse(option, path, std::strerror(EISDIR));
+  const bool exists = fs::exists(status);
+  if (exists && access(path.c_str(), W_OK) != 0) refuse(option, path, std::strerror(errno));
+  if (exists && !fs::is_regular_file(status)) {
+    temporary_ = target_;
+    return;
+  }
+  if (exists) {
+    const fs::path resolved = fs::canonical(path, error);
+    if (!error) target_ = resolved.string();
+  }
+  temporary_ = target_ + ".part";
+  std::FILE* const file = std::fopen(temporary_.c_str(), "wb");
+  if (file == nullptr) refuse(option, path, std::strerror(errno));
+  std::fclose(file);
+}
+
+OutputPath::~OutputPath() {
+  if (!committed_ && temporary_ != target_) std::remove(temporary_.c_str());
+}
+
+void OutputPath::commit() {
+  if (temporary_ != target_ && std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    throw OutputError(path_, std::strerror(errno));
+  }
+  committed_ = true;
+}
+
+}  // namespace vibratory_alignment

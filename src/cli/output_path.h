@@ -1,0 +1,35 @@
+// A file that appears under its name only when it is whole.
+#pragma once
+
+#include <string>
+
+namespace vibratory_alignment {
+
+/// The path of an output file. Until commit() the file is written to `temporary()`, "PATH.part" beside it; what has
+/// not been committed is removed again. Devices and pipes (/dev/stdout) are written directly.
+class OutputPath {
+ public:
+  /// Creates the temporary file, so that a path that cannot be written is found out before anything runs.
+  /// Throws UsageError that names `option`, the path and the reason.
+  OutputPath(const std::string& option, const std::string& path);
+  ~OutputPath();
+  OutputPath(const OutputPath&) = delete;
+  OutputPath& operator=(const OutputPath&) = delete;
+
+  /// Where to write now.
+  const std::string& temporary() const { return temporary_; }
+
+  /// As the user gave it, for messages.
+  const std::string& path() const { return path_; }
+
+  /// The file is whole and closed: gives it its name. Throws OutputError.
+  void commit();
+
+ private:
+  std::string path_;
+  std::string target_;     ///< path_ with symbolic links resolved
+  std::string temporary_;  ///< equal to target_ when it is written directly
+  bool committed_ = false;
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,297 @@
+#include "cli/trial_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/csv_writer.h"
+#include "cli/errors.h"
+#include "cli/interrupt.h"
+#include "cli/json_report.h"
+#include "cli/output_path.h"
+#include "cli/progress_bar.h"
+#include "cli/scene_path.h"
+#include "cli/summary.h"
+#include "model/scaling.h"
+#include "model/scene_loader.h"
+#include "model/solver_names.h"
+#include "model/tree_reader.h"
+#include "node/bag_writer.h"
+#include "trial/sampler.h"
+#include "trial/simulation.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr double kSamplesPerPeriod = 20.0;  ///< of the fastest excitation, without --sample
+constexpr double kMaxSamples = 1e9;
+
+constexpr char kFooter[] = R"(Examples:
+  align trial fig2                               the paper's alignment trial, which comes with the package
+  align trial my_scene.yaml --json               a scene of your own, the result for a program
+  align trial fig2 --csv run.csv --sample 0.01   motion and forces, every 0.01 and at every event
+  align trial fig2 --set friction.coefficient=0.3 --set excitation.frequency=25
+  align trial fig2 --until 5 --tolerance 1e-10   the motion until 5, more exactly
+
+Units:
+  Options, results and files are in the scene's own units. A scene with `units: si` has s, m, m/s, rad, N. Other
+  scenes have the paper's: time 1/p where p^2 = K_Y/M, length F1/K_Y, force F1 (F1 is the amplitude of the
+  excitation, K_Y the axial stiffness of the gripper, M the mass of the part). Angles are in rad.
+
+CSV columns:
+  t                        time
+  x,y,phi,vx,vy,omega      position, tilt and velocity of the part
+  n1,n2,t1,t2              normal and tangential force at the slot's edges a1 (right) and a2 (left)
+  nb1,nb2,tb1,tb2          the same at the part's lower corners b1 (right) and b2 (left)
+  nf1,nf2,tf1,tf2          the same where these corners stand on the slot's floor
+  event                    1 at an event instant, 0 at a regular sample
+
+Files appear under their names when they are whole; a run that fails or is interrupted leaves none.
+Exit status: 0 the trial ran, whatever its outcome; 1 it failed while running; 2 bad usage or bad scene.)";
+
+struct TrialOptions {
+  std::string scene;
+  std::string solver, tolerance, step;
+  std::optional<double> until, sample;
+  std::vector<std::string> settings;
+  bool json = false;
+  std::string csv, bag;
+};
+
+/// Accepts what a scene accepts as a number > 0.
+std::string check_positive(const std::string& text) {
+  const std::optional<double> value = parse_number(text);
+  if (value && *value > 0.0 && has_sane_size(*value)) return {};
+  return text + " is not allowed: give a number > 0";
+}
+
+std::string solver_list() {
+  std::string list;
+  for (const SolverName& solver : solver_names) list += (list.empty() ? "" : ", ") + std::string(solver.name);
+  return list;
+}
+
+const SolverName* find_solver(const std::string& name) {
+  const auto found = std::find_if(solver_names.begin(), solver_names.end(),
+                                  [&](const SolverName& solver) { return name == solver.name; });
+  return found == solver_names.end() ? nullptr : &*found;
+}
+
+std::string check_solver(const std::string& name) {
+  return find_solver(name) ? std::string() : name + " is not a solver; the solvers are " + solver_list();
+}
+
+/// Takes `key` out of the section `solver`, if it is there.
+void drop_solver_key(YAML::Node& tree, const std::string& key) {
+  if (tree.IsMap() && tree["solver"].IsMap() && tree["solver"][key]) apply_setting(tree, "solver." + key + "=null");
+}
+
+/// The solver that the scene names; null when it names none that there is.
+const SolverName* solver_of(const YAML::Node& tree) {
+  const YAML::Node section = tree.IsMap() ? tree["solver"] : YAML::Node();
+  const YAML::Node name = section && section.IsMap() ? section["name"] : YAML::Node();
+  return find_solver(name && name.IsScalar() ? name.Scalar() : SolverSettings().name);
+}
+
+/// The scene with everything that the options change in it.
+Scene load(const TrialOptions& options, const std::string& file) {
+  YAML::Node tree = read_scene_file(file);
+  if (!options.solver.empty()) {
+    apply_setting(tree, "solver.name=" + options.solver);
+    // What the scene gives for its own solver means nothing to one of the other kind.
+    drop_solver_key(tree, find_solver(options.solver)->fixed_step ? "tolerance" : "step");
+  }
+  for (const std::string& setting : options.settings) apply_setting(tree, setting);
+
+  const SolverName* const solver = solver_of(tree);
+  if (solver && solver->fixed_step && !options.tolerance.empty()) {
+    throw UsageError(std::string("--tolerance: the solver ") + solver->name + " has a fixed step; give --step");
+  }
+  if (solver && !solver->fixed_step && !options.step.empty()) {
+    throw UsageError(std::string("--step: the solver ") + solver->name + " chooses its steps; give --tolerance");
+  }
+  if (!options.tolerance.empty()) apply_setting(tree, "solver.tolerance=" + options.tolerance);
+  if (!options.step.empty()) apply_setting(tree, "solver.step=" + options.step);
+  return load_scene(tree, file);
+}
+
+/// Throws UsageError for a name that would overwrite the scene or another output.
+void check_outputs(const TrialOptions& options, const std::string& scene_file) {
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code error;
+    return a == b || std::filesystem::equivalent(a, b, error);
+  };
+  for (const std::string* path : {&options.csv, &options.bag}) {
+    if (!path->empty() && same(*path, scene_file)) throw UsageError(*path + ": is the scene; it is not overwritten");
+  }
+  if (!options.csv.empty() && same(options.csv, options.bag)) {
+    throw UsageError(options.csv + ": --csv and --bag name the same file");
+  }
+}
+
+/// Dimensionless: --sample, or a twentieth of the period of the fastest excitation.
+double sample_interval(const TrialOptions& options, const Scene& scene, double end) {
+  double interval = 0.0;
+  if (options.sample) {
+    interval = *options.sample / output_units(scene).time;
+  } else {
+    double fastest = 0.0;
+    for (const Excitation& excitation : scene.excitations) {
+      fastest = std::max({fastest, excitation.frequency, excitation.end_frequency});
+    }
+    interval = fastest > 0.0 ? 2.0 * M_PI / fastest / kSamplesPerPeriod : end / 1000.0;
+  }
+  if (end / interval > kMaxSamples) {
+    throw UsageError("--sample: the run would have more than 1e9 samples; give a longer interval");
+  }
+  return interval;
+}
+
+Simulation make_simulation(const Scene& scene, const SimulationOptions& options) {
+  try {
+    return Simulation(scene, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+/// The files that a trial is recorded in.
+class Recorder {
+ public:
+  /// Throws UsageError when one of them cannot be written.
+  Recorder(const TrialOptions& options, const Scene& scene) {
+    if (!options.csv.empty()) csv_ = std::make_unique<CsvWriter>(options.csv, output_units(scene));
+    if (!options.bag.empty()) {
+      bag_path_ = std::make_unique<OutputPath>("--bag", options.bag);
+      bag_ = std::make_unique<BagWriter>(bag_path_->temporary(), scene);
+    }
+  }
+
+  bool wanted() const { return csv_ || bag_; }
+
+  /// Throws OutputError.
+  void write(const Sample& sample) {
+    if (csv_) csv_->write(sample);
+    if (bag_) to_bag([&] { bag_->write(sample); });
+  }
+
+  /// Throws OutputError.
+  void finish(const TrialResult& result) {
+    if (csv_) csv_->finish();
+    if (bag_) {
+      to_bag([&] { bag_->finish(result); });
+      bag_path_->commit();
+    }
+  }
+
+ private:
+  template <class Action>
+  void to_bag(const Action& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      throw OutputError(bag_path_->path(), error.what());
+    }
+  }
+
+  std::unique_ptr<CsvWriter> csv_;
+  std::unique_ptr<OutputPath> bag_path_;
+  std::unique_ptr<BagWriter> bag_;
+};
+
+/// Runs to the end or to a signal, whose number it returns.
+int simulate(Simulation& simulation, Recorder& recorder, double interval, ProgressBar& progress) {
+  const InterruptGuard interrupt;
+  if (!recorder.wanted()) {
+    while (interrupt.signal() == 0 && simulation.advance()) progress.update(simulation.time());
+    return interrupt.signal();
+  }
+  Sampler sampler(simulation, interval, true);
+  Sample sample;
+  while (interrupt.signal() == 0 && sampler.next(sample)) {
+    recorder.write(sample);
+    progress.update(sample.time);
+  }
+  return interrupt.signal();
+}
+
+int run_trial(const TrialOptions& options) {
+  const std::string file = find_scene(options.scene);
+  check_outputs(options, file);
+  const Scene scene = load(options, file);
+  const double time_unit = output_units(scene).time;
+
+  SimulationOptions simulation_options;
+  if (options.until) simulation_options.until = *options.until / time_unit;
+  const double end = simulation_options.until.value_or(scene.trial.time_limit);
+  const double interval = sample_interval(options, scene, end);
+  Simulation simulation = make_simulation(scene, simulation_options);
+  Recorder recorder(options, scene);
+
+  int signal = 0;
+  {
+    ProgressBar progress(end, !options.json && stdout_is_terminal());
+    signal = simulate(simulation, recorder, interval, progress);
+  }
+  if (signal != 0) {
+    std::fprintf(stderr, "align: interrupted at t = %.6g; nothing is reported or written\n",
+                 simulation.time() * time_unit);
+    return 128 + signal;
+  }
+  const TrialResult result = simulation.result();
+  recorder.finish(result);
+
+  std::cout << (options.json ? json_report(result, scene) + "\n" : summary(result, scene)) << std::flush;
+  if (!std::cout) throw OutputError("stdout", "the report is lost");
+  if (result.outcome != Outcome::failed) return kExitRan;
+  std::fprintf(stderr, "align: the trial failed at t = %.6g: %s\n", result.final_time * time_unit,
+               result.failure.c_str());
+  return kExitFailed;
+}
+
+}  // namespace
+
+std::function<int()> set_up_trial(CLI::App& app) {
+  const auto options = std::make_shared<TrialOptions>();
+  const CLI::Validator positive(check_positive, "");
+  app.footer(kFooter);
+  app.add_option("SCENE", options->scene,
+                 "Scene file (YAML), or the name of a scene that comes with\nthe package, like fig2")
+      ->required();
+  app.add_option("--solver", options->solver, solver_list() + ";\ndefault: the one that the scene names, else event")
+      ->check(CLI::Validator(check_solver, ""))
+      ->type_name("NAME");
+  CLI::Option* const tolerance = app.add_option("--tolerance", options->tolerance,
+                                                "For solvers that choose their steps: the error that a step may have");
+  CLI::Option* const step = app.add_option("--step", options->step, "For rk4, semi_implicit and ode: the step, a time");
+  tolerance->check(positive)->type_name("E")->excludes(step);
+  step->check(positive)->type_name("H");
+  app.add_option("--until", options->until,
+                 "Run exactly to this time, whatever happens before. Default: to the\n"
+                 "outcome, at most to trial.time_limit of the scene")
+      ->check(positive)
+      ->type_name("TAU");
+  app.add_option("--set", options->settings,
+                 "Give a key of the scene another value, as in\n--set gripper.pressing_force=0.3; can be repeated")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("--json", options->json, "Print one JSON object instead of the summary, and nothing else");
+  app.add_option("--csv", options->csv, "Write the motion and the forces to this file")->type_name("FILE");
+  app.add_option("--bag", options->bag, "Write a ROS bag with the topics of aligner_node; needs no ROS master")
+      ->type_name("FILE");
+  app.add_option("--sample", options->sample,
+                 "Time between two rows of the CSV file or messages of the bag. Changes\n"
+                 "nothing in the motion. Default: 1/20 of the shortest excitation period")
+      ->check(positive)
+      ->type_name("DT");
+  return [options] { return run_trial(*options); };
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,37 @@
+// aligner_node: one alignment trial as a ROS node. The README lists its parameters, topics, services and settings.
+// Exit status: 0 it ran, 1 it could not start (bad scene, bad parameters).
+#include <cstdlib>
+#include <exception>
+#include <sstream>
+#include <string>
+
+#include <ros/ros.h>
+
+#include "node/aligner.h"
+#include "node/node_parameters.h"
+#include "node/scene_from_params.h"
+
+namespace {
+
+/// One log entry a line: a scene may have many faults.
+int fail(const std::string& message) {
+  std::istringstream lines(message);
+  for (std::string line; std::getline(lines, line);) ROS_FATAL("%s", line.c_str());
+  return EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace vibratory_alignment;
+  ros::init(argc, argv, "aligner");
+  const ros::NodeHandle private_handle("~");
+  try {
+    const Scene scene = scene_from_params(private_handle);
+    Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene));
+    aligner.spin();
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,143 @@
+#include "node/bag_writer.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include <boost/make_shared.hpp>
+#include <rosbag/bag.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "node/frames.h"
+#include "node/markers.h"
+#include "node/messages.h"
+#include "node/transforms.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr double kPictures = 1000.0;  ///< markers are written at most this often in trial.time_limit
+
+/// Peaks and impulses of `earlier`, to which no message was given, go into `later`.
+void carry_over(const Sample& earlier, Sample& later) {
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const ContactSample& from = earlier.contacts[i];
+    ContactSample& to = later.contacts[i];
+    to.peak_normal_force = std::max(to.peak_normal_force, from.peak_normal_force);
+    to.impulse_x += from.impulse_x;
+    to.impulse_y += from.impulse_y;
+    to.normal_impulse += from.normal_impulse;
+  }
+}
+
+}  // namespace
+
+class BagWriter::Impl {
+ public:
+  Impl(const std::string& path, const Scene& scene, const BagOptions& options)
+      : path_(path),
+        node_(options.node_name),
+        scene_(scene),
+        messages_(scene, frames_with_prefix(options.tf_prefix)),
+        markers_(scene, messages_.frames()),
+        picture_interval_(scene.trial.time_limit / kPictures) {
+    guarded([&] { bag_.open(path_, rosbag::bagmode::Write); });
+  }
+
+  ~Impl() {
+    if (whole_) return;
+    try {
+      bag_.close();
+    } catch (const std::exception&) {
+      // it is removed anyway
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::remove(path_, ignored);
+  }
+
+  void write(const Sample& sample) {
+    guarded([&] { put(sample); });
+  }
+
+  void finish(const TrialResult& result) {
+    guarded([&] {
+      const ros::Time stamp = stamp_at(result.final_time);
+      markers_.set_outcome(result.outcome);
+      bag_.write(node_ + "/markers", stamp, markers_.draw(stamp), latched());
+      bag_.write(node_ + "/result", stamp, messages_.result(result, stamp), latched());
+      bag_.close();
+    });
+    whole_ = true;
+  }
+
+ private:
+  /// Runs `work` and tells its failures with the file's name.
+  template <class Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path_ + ": the bag cannot be written: " + error.what());
+    }
+  }
+
+  ros::Time stamp_at(double time) const { return ros::Time(kStartTime + time * messages_.units().time); }
+
+  boost::shared_ptr<ros::M_string> latched() const {
+    auto header = boost::make_shared<ros::M_string>();
+    (*header)["callerid"] = node_;
+    (*header)["latching"] = "1";
+    return header;
+  }
+
+  void put(Sample sample) {
+    if (carried_) carry_over(*carried_, sample);
+    carried_.reset();
+    const ros::Time stamp = stamp_at(sample.time);
+    if (stamp <= last_stamp_ || (sample.is_event && !sample.is_last)) {
+      carried_ = sample;
+      return;
+    }
+    if (last_stamp_.isZero()) {
+      tf2_msgs::TFMessage fixed;
+      fixed.transforms = static_transforms(scene_, messages_.frames(), {}, stamp);
+      bag_.write("/tf_static", stamp, fixed, latched());
+    }
+    last_stamp_ = stamp;
+    tf2_msgs::TFMessage moving;
+    moving.transforms = {part_transform(sample.state, messages_.units().length, messages_.frames(), stamp)};
+    bag_.write("/tf", stamp, moving);
+    bag_.write(node_ + "/state", stamp, messages_.state(sample, stamp));
+    bag_.write(node_ + "/reaction/a1", stamp, messages_.reaction(sample, Site::a1, stamp));
+    bag_.write(node_ + "/reaction/a2", stamp, messages_.reaction(sample, Site::a2, stamp));
+    bag_.write(node_ + "/contacts", stamp, messages_.contacts(sample, stamp));
+    markers_.add(sample);
+    if (sample.time >= next_picture_) {
+      next_picture_ = sample.time + picture_interval_;
+      bag_.write(node_ + "/markers", stamp, markers_.draw(stamp), latched());
+    }
+  }
+
+  std::string path_, node_;
+  Scene scene_;
+  Messages messages_;
+  Markers markers_;
+  rosbag::Bag bag_;
+  ros::Time last_stamp_;
+  std::optional<Sample> carried_;  ///< of event instants since the last message
+  double picture_interval_, next_picture_ = 0.0;
+  bool whole_ = false;
+};
+
+BagWriter::BagWriter(const std::string& path, const Scene& scene, const BagOptions& options)
+    : impl_(std::make_unique<Impl>(path, scene, options)) {}
+
+BagWriter::~BagWriter() = default;
+
+void BagWriter::write(const Sample& sample) { impl_->write(sample); }
+
+void BagWriter::finish(const TrialResult& result) { impl_->finish(result); }
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,112 @@
+#include "node/drive_settings.h"
+
+#include <cmath>
+
+#include "mechanics/statics.h"
+#include "mechanics/system.h"
+#include "model/scaling.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// f0 = y_touch - y_a, also for a scene that gives anchor.y; nothing when nothing can be touched from above.
+std::optional<double> pressing_force_of(const Scene& scene) {
+  if (scene.gripper.pressing_force) return scene.gripper.pressing_force;
+  const System system = make_system(scene);
+  const std::optional<double> touch = touch_height(system, system.start.x, system.start.phi);
+  if (!touch) return std::nullopt;
+  return *touch - system.y.anchor;
+}
+
+/// The scene's own number while the setting shows it, to the last bit; else the setting, scaled.
+double chosen(double setting, double shown, double scene_value, double unit) {
+  return setting == shown ? scene_value : setting / unit;
+}
+
+}  // namespace
+
+DriveSettings::DriveSettings(const Scene& scene, double time_scale)
+    : scene_excitations_(scene.excitations), scene_pressing_force_(pressing_force_of(scene)) {
+  const bool has_excitation = !scene_excitations_.empty();
+  if (scene.units == Units::si) {
+    const bool turns = has_excitation && scene_excitations_.front().direction == Direction::phi;
+    force_unit_ = si_size(Quantity::force, *scene.scales);
+    amplitude_unit_ = turns ? si_size(Quantity::moment, *scene.scales) : force_unit_;
+    frequency_unit_ = si_size(Quantity::frequency, *scene.scales);
+  }
+  config_.enabled = has_excitation;
+  config_.amplitude = config_.frequency = config_.phase = 0.0;
+  config_.waveform = 0;
+  if (has_excitation) {
+    const Excitation& first = scene_excitations_.front();
+    config_.amplitude = first.amplitude * amplitude_unit_;
+    config_.frequency = first.frequency * frequency_unit_;
+    config_.phase = first.phase;
+    config_.waveform = static_cast<int>(first.waveform);
+  }
+  config_.pressing_force = scene_pressing_force_.value_or(0.0) * force_unit_;
+  config_.time_scale = time_scale;
+  scene_config_ = config_;
+}
+
+std::vector<std::string> DriveSettings::change(AlignerConfig& requested) {
+  std::vector<std::string> refusals;
+  // The server clamps every value of a request, also those that nobody has asked to change: a value that the scene gives
+  // beyond the range must survive that.
+  AlignerConfig clamped = config_;
+  clamped.__clamp__();
+  const auto check = [&](double AlignerConfig::*value, const char* name) {
+    if (!std::isfinite(requested.*value)) {
+      refusals.push_back(std::string(name) + ": not a finite number");
+      requested.*value = config_.*value;
+    } else if (requested.*value == clamped.*value) {
+      requested.*value = config_.*value;
+    }
+  };
+  check(&AlignerConfig::amplitude, "amplitude");
+  check(&AlignerConfig::frequency, "frequency");
+  check(&AlignerConfig::phase, "phase");
+  check(&AlignerConfig::pressing_force, "pressing_force");
+  check(&AlignerConfig::time_scale, "time_scale");
+
+  if (scene_excitations_.empty()) {
+    const AlignerConfig& old = config_;
+    if (requested.enabled != old.enabled || requested.amplitude != old.amplitude ||
+        requested.frequency != old.frequency || requested.phase != old.phase || requested.waveform != old.waveform) {
+      refusals.emplace_back("the scene has no excitation to change");
+    }
+    requested.enabled = old.enabled;
+    requested.amplitude = old.amplitude;
+    requested.frequency = old.frequency;
+    requested.phase = old.phase;
+    requested.waveform = old.waveform;
+  } else if (requested.waveform == static_cast<int>(Waveform::chirp) && scene_excitations_.front().sweep_time <= 0.0) {
+    if (requested.waveform != config_.waveform) refusals.emplace_back("waveform: the scene gives no sweep for a chirp");
+    requested.waveform = config_.waveform;
+  }
+  if (!scene_pressing_force_ && requested.pressing_force != config_.pressing_force) {
+    refusals.emplace_back("pressing_force: at the start of the scene nothing can be touched from above");
+    requested.pressing_force = config_.pressing_force;
+  }
+  config_ = requested;
+  return refusals;
+}
+
+std::vector<Excitation> DriveSettings::excitations() const {
+  std::vector<Excitation> excitations = scene_excitations_;
+  if (excitations.empty()) return excitations;
+  Excitation& first = excitations.front();
+  first.amplitude = chosen(config_.amplitude, scene_config_.amplitude, first.amplitude, amplitude_unit_);
+  first.frequency = chosen(config_.frequency, scene_config_.frequency, first.frequency, frequency_unit_);
+  first.phase = config_.phase;
+  first.waveform = static_cast<Waveform>(config_.waveform);
+  if (!config_.enabled) first.amplitude = 0.0;
+  return excitations;
+}
+
+std::optional<double> DriveSettings::pressing_force() const {
+  if (!scene_pressing_force_) return std::nullopt;
+  return chosen(config_.pressing_force, scene_config_.pressing_force, *scene_pressing_force_, force_unit_);
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,93 @@
+"""What the tests of the command `align` share: they run the real command and look at what it prints and leaves.
+
+The environment variable ALIGN names the command, e.g. ALIGN=devel/lib/vibratory_alignment/align.
+"""
+
+import copy
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import yaml
+
+SOURCE_ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+# A short trial with few contacts, apart from the shipped scenes so that tuning these breaks no test here.
+SMALL_SCENE = {
+    "name": "small",
+    "units": "dimensionless",
+    "part": {"half_width": 0.7, "base_distance": 0.9, "inertia": 0.3},
+    "slot": {"clearance": 0.09},
+    "gripper": {
+        "stiffness": {"x": 0.05, "phi": 60.0},
+        "damping": {"x": 0.05, "y": 0.05, "phi": 0.05},
+        "pressing_force": 0.2,
+    },
+    "base": {"stiffness": {"y": 2500.0}, "damping": {"y": 20.0}},
+    "contacts": ["edges"],
+    "friction": {"coefficient": 0.2},
+    "excitation": {"amplitude": 1.0, "frequency": 20.0},
+    "initial": {"x": 0.2},
+    "trial": {"time_limit": 3.0},
+}
+
+
+class AlignTestCase(unittest.TestCase):
+    """A test with a directory of its own in which `align` runs."""
+
+    def setUp(self):
+        self.align_path = os.path.abspath(os.environ["ALIGN"])
+        self.directory = tempfile.mkdtemp(prefix="align_test_")
+        self.addCleanup(shutil.rmtree, self.directory)
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def write(self, name, content):
+        """Writes text or bytes; returns the path."""
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return self.path(name)
+
+    def scene(self, name="small.yaml", without=(), **changes):
+        """Writes SMALL_SCENE with other sections, or without some; returns the path."""
+        tree = copy.deepcopy(SMALL_SCENE)
+        tree.update(changes)
+        for key in without:
+            del tree[key]
+        return self.write(name, yaml.safe_dump(tree))
+
+    def align(self, *arguments, **options):
+        """Runs align; returns the finished process, whose stdout and stderr are text."""
+        environment = dict(os.environ, ROS_PACKAGE_PATH=SOURCE_ROOT, **options.pop("environment", {}))
+        return subprocess.run(
+            [self.align_path] + [str(argument) for argument in arguments],
+            cwd=self.directory,
+            env=environment,
+            stdout=options.pop("stdout", subprocess.PIPE),
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=120,
+            **options,
+        )
+
+    def trial(self, *arguments, **options):
+        """Runs `align trial ... --json`, which must succeed; returns the object it prints."""
+        process = self.align("trial", *(list(arguments) + ["--json"]), **options)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.stderr, "")
+        return json.loads(process.stdout)
+
+    def assert_refused(self, arguments, *words):
+        """align ends with 2, prints nothing on stdout and every word on stderr, in words fit for people."""
+        process = self.align(*arguments)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertEqual(process.stdout, "")
+        for word in words:
+            self.assertIn(str(word), process.stderr)
+        for jargon in ("terminate called", "std::", "exception", "Assertion"):
+            self.assertNotIn(jargon, process.stderr)
+        return process.stderr

@@ -1,0 +1,152 @@
+"""`align trial`: the CSV file and the bag that it writes, and what is left when it cannot."""
+
+import csv
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import rosbag
+
+from align_test_case import AlignTestCase
+
+COLUMNS = (
+    "t,x,y,phi,vx,vy,omega,n1,n2,t1,t2,nb1,nb2,tb1,tb2,nf1,nf2,tf1,tf2,event".split(",")
+)
+
+
+class CsvTest(AlignTestCase):
+    def record(self, *arguments):
+        """Returns the report and the rows, as dictionaries of floats."""
+        path = self.path("run.csv")
+        report = self.trial(self.scene(), "--csv", path, *arguments)
+        with open(path) as file:
+            reader = csv.DictReader(file)
+            rows = [{key: float(value) for key, value in row.items()} for row in reader]
+        self.assertEqual(reader.fieldnames, COLUMNS)
+        return report, rows
+
+    def test_starts_at_zero_and_ends_at_the_end(self):
+        report, rows = self.record("--sample", "0.1")
+        self.assertEqual(rows[0]["t"], 0.0)
+        for key, value in report["final"].items():
+            self.assertEqual(rows[-1][key], value, key)
+
+    def test_time_never_runs_backwards(self):
+        _, rows = self.record("--sample", "0.01")
+        for before, after in zip(rows, rows[1:]):
+            self.assertLessEqual(before["t"], after["t"])
+
+    def test_regular_rows_lie_at_multiples_of_the_interval(self):
+        _, rows = self.record("--sample", "0.1")
+        regular = [row["t"] for row in rows[:-1] if row["event"] == 0]
+        self.assertGreater(len(regular), 20)
+        for index, t in enumerate(regular):
+            self.assertAlmostEqual(t, 0.1 * index, delta=1e-14)
+
+    def test_has_rows_at_event_instants(self):
+        report, rows = self.record("--sample", "0.1")
+        self.assertGreater(report["solver"]["events"], 0)
+        self.assertGreater(sum(row["event"] for row in rows), 0)
+
+    def test_regular_rows_do_not_depend_on_the_interval(self):
+        _, coarse = self.record("--sample", "0.5")
+        _, fine = self.record("--sample", "0.25")
+        fine_by_time = {row["t"]: row for row in fine if row["event"] == 0}
+        for row in coarse:
+            if row["event"] == 0:
+                self.assertEqual(row, fine_by_time[row["t"]])
+
+    def test_forces_are_pushes_and_friction_is_within_its_bound(self):
+        _, rows = self.record("--sample", "0.005")
+        self.assertGreater(max(row["n1"] for row in rows), 0.0)
+        for row in rows:
+            for normal, tangential in (("n1", "t1"), ("n2", "t2"), ("nb1", "tb1"), ("nb2", "tb2")):
+                self.assertGreaterEqual(row[normal], 0.0)
+                self.assertLessEqual(abs(row[tangential]), 0.2 * row[normal] * (1 + 1e-9) + 1e-12)
+
+    def test_default_interval_resolves_the_excitation(self):
+        report, rows = self.record()
+        periods = report["final"]["t"] * 20.0 / (2.0 * 3.14159265)
+        self.assertGreaterEqual(sum(row["event"] == 0 for row in rows), 19 * periods)
+
+    def test_replaces_an_old_file(self):
+        self.write("run.csv", "old")
+        _, rows = self.record()
+        self.assertGreater(len(rows), 1)
+        self.assertEqual(sorted(os.listdir(self.directory)), ["run.csv", "small.yaml"])
+
+    def test_goes_to_a_pipe(self):
+        process = self.align("trial", self.scene(), "--json", "--csv", "/dev/stderr", "--sample", "1")
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(process.stderr.splitlines()[0], ",".join(COLUMNS))
+
+
+class LostFileTest(AlignTestCase):
+    def test_full_disk(self):
+        for option in ("--csv", "--bag"):
+            with self.subTest(option):
+                process = self.align("trial", self.scene(), option, "/dev/full", "--sample", "0.01")
+                self.assertEqual(process.returncode, 1)
+                self.assertIn("/dev/full", process.stderr)
+                self.assertEqual(process.stdout, "")
+
+    def test_full_disk_names_the_reason(self):
+        process = self.align("trial", self.scene(), "--csv", "/dev/full")
+        self.assertIn("No space left on device", process.stderr)
+
+    def test_interrupted_run_leaves_no_file_and_keeps_the_old_one(self):
+        self.write("run.csv", "old")
+        arguments = ["trial", self.scene(), "--until", "1e6", "--csv", "run.csv", "--sample", "0.01"]
+        process = subprocess.Popen(
+            [self.align_path] + arguments, cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        )
+        while process.poll() is None and not os.path.exists(self.path("run.csv.part")):
+            time.sleep(0.01)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(stdout, b"")
+        self.assertIn(b"interrupted", stderr)
+        self.assertEqual(sorted(os.listdir(self.directory)), ["run.csv", "small.yaml"])
+        with open(self.path("run.csv")) as file:
+            self.assertEqual(file.read(), "old")
+
+
+class BagTest(AlignTestCase):
+    def record(self, *arguments):
+        path = self.path("run.bag")
+        scales = {"mass": 0.1, "stiffness": 4000.0, "force": 8.0}
+        report = self.trial(self.scene(scales=scales), "--bag", path, *arguments)
+        with rosbag.Bag(path) as bag:
+            return report, list(bag.read_messages())
+
+    def test_is_whole_and_has_the_topics_of_the_node(self):
+        _, messages = self.record("--sample", "0.1")
+        topics = {message.topic for message in messages}
+        node = {"/aligner/" + name for name in ("state", "reaction/a1", "reaction/a2", "contacts", "markers", "result")}
+        self.assertLessEqual(node | {"/tf", "/tf_static"}, topics)
+        self.assertEqual(sum(message.topic == "/aligner/result" for message in messages), 1)
+
+    def test_stamps_grow_and_are_never_zero(self):
+        _, messages = self.record("--sample", "0.1")
+        stamps = [message.message.header.stamp.to_sec() for message in messages if message.topic == "/aligner/state"]
+        self.assertGreater(len(stamps), 20)
+        self.assertGreater(stamps[0], 0.0)
+        for before, after in zip(stamps, stamps[1:]):
+            self.assertLess(before, after)
+
+    def test_changes_nothing_in_the_motion(self):
+        report, _ = self.record("--sample", "0.1")
+        self.assertEqual(report["final"], self.trial(self.scene())["final"])
+
+    def test_replaces_an_old_file(self):
+        self.write("run.bag", "old")
+        self.record()
+        self.assertEqual(sorted(os.listdir(self.directory)), ["run.bag", "small.yaml"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,155 @@
+"""`align trial`: what it reports, and that the same call gives the same bits."""
+
+import json
+import os
+import unittest
+
+from align_test_case import SOURCE_ROOT, AlignTestCase
+
+STATE_KEYS = {"t", "x", "y", "phi", "vx", "vy", "omega"}
+SPOTS = {"a1", "a2", "b1", "b2"}
+
+
+class JsonTest(AlignTestCase):
+    def test_has_the_keys_of_the_contract(self):
+        report = self.trial(self.scene())
+        self.assertLessEqual(
+            {"scene", "outcome", "mode", "duration", "final", "impacts", "peak_force", "first_contact", "energy", "solver"},
+            set(report),
+        )
+        self.assertEqual(report["scene"], "small")
+        self.assertEqual(set(report["final"]), STATE_KEYS)
+        self.assertEqual(set(report["impacts"]), SPOTS)
+        self.assertEqual(set(report["peak_force"]), SPOTS)
+        self.assertLessEqual(
+            {"name", "tolerance", "steps", "rejected", "rhs_evaluations", "events", "cpu_seconds"}, set(report["solver"])
+        )
+        self.assertIn("residual", report["energy"])
+
+    def test_has_the_types_of_the_contract(self):
+        report = self.trial(self.scene())
+        self.assertIn(report["outcome"], {"aligned", "inserted", "jammed", "stalled", "time_limit", "failed"})
+        self.assertIn(report["mode"], {"none", "impact", "nonimpact", "mixed"})
+        self.assertEqual(report["units"], "dimensionless")
+        for value in report["final"].values():
+            self.assertIsInstance(value, float)
+        for value in report["impacts"].values():
+            self.assertIsInstance(value, int)
+        for value in report["peak_force"].values():
+            self.assertGreaterEqual(value, 0.0)
+        for key in ("steps", "rejected", "rhs_evaluations", "events"):
+            self.assertIsInstance(report["solver"][key], int)
+        self.assertIsInstance(report["force_limit_exceeded"], bool)
+        for change in report["mode_changes"]:
+            self.assertEqual(set(change), {"t", "mode"})
+
+    def test_duration_is_null_unless_aligned(self):
+        report = self.trial(self.scene(), "--until", 0.1)
+        self.assertNotEqual(report["outcome"], "aligned")
+        self.assertIsNone(report["duration"])
+
+    def test_first_contact_is_null_without_one(self):
+        report = self.trial(self.scene(initial={"x": 0.2, "y": 5.0, "phi": 0.0}), "--until", 0.01)
+        self.assertIsNone(report["first_contact"])
+        self.assertEqual(report["impacts"], {"a1": 0, "a2": 0, "b1": 0, "b2": 0})
+
+    def test_start_state_is_given_back_with_all_digits(self):
+        initial = {"x": 0.1 + 0.2, "y": 5.1234567890123456, "phi": 1.0 / 3.0}
+        locked = self.scene(
+            gripper={"damping": {}, "pressing_force": 0.2},
+            part={"half_width": 0.7, "base_distance": 0.9},
+            initial=initial,
+        )
+        final = self.trial(locked, "--until", 0.01)["final"]
+        self.assertEqual(final["x"], initial["x"])
+        self.assertEqual(final["phi"], initial["phi"])
+
+    def test_until_ends_the_run_exactly_there(self):
+        self.assertEqual(self.trial(self.scene(), "--until", 0.7)["final"]["t"], 0.7)
+
+    def test_until_may_lie_beyond_the_time_limit(self):
+        self.assertEqual(self.trial(self.scene(), "--until", 4.5)["final"]["t"], 4.5)
+
+    def test_set_changes_the_scene(self):
+        plain = self.trial(self.scene())
+        changed = self.trial(self.scene(), "--set", "friction.coefficient=0.4", "--set", "name=other")
+        self.assertEqual(changed["scene"], "other")
+        self.assertNotEqual(changed["final"], plain["final"])
+
+    def test_tolerance_is_used_and_reported(self):
+        report = self.trial(self.scene(), "--tolerance", "1e-6")
+        self.assertEqual(report["solver"]["name"], "event")
+        self.assertEqual(report["solver"]["tolerance"], 1e-6)
+
+    def test_shipped_scene_is_found_by_name(self):
+        self.assertEqual(self.trial("fig2", "--until", 0.1)["scene"], "fig2")
+
+    def test_si_scene_reports_si(self):
+        report = self.trial("gripper_si", "--until", 0.001)
+        self.assertEqual(report["units"], "si")
+        self.assertAlmostEqual(report["final"]["t"], 0.001, delta=1e-15)
+
+
+class RepeatTest(AlignTestCase):
+    def report_without_cpu_time(self, *arguments):
+        report = self.trial(*arguments)
+        del report["solver"]["cpu_seconds"]
+        return json.dumps(report, sort_keys=True)
+
+    def test_two_runs_are_identical(self):
+        self.assertEqual(self.report_without_cpu_time(self.scene()), self.report_without_cpu_time(self.scene()))
+
+    def test_recording_changes_nothing(self):
+        plain = self.report_without_cpu_time(self.scene())
+        for sample in ("0.001", "0.37", "100"):
+            recorded = self.report_without_cpu_time(self.scene(), "--csv", self.path("run.csv"), "--sample", sample)
+            self.assertEqual(recorded, plain, "--sample " + sample)
+
+
+class SummaryTest(AlignTestCase):
+    def test_says_the_outcome_first(self):
+        process = self.align("trial", self.scene())
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.stderr, "")
+        lines = process.stdout.splitlines()
+        self.assertIn("small", lines[0])
+        self.assertTrue(lines[1].startswith("Outcome"), process.stdout)
+
+    def test_has_no_si_column_without_scales(self):
+        self.assertNotIn(" mm", self.align("trial", self.scene()).stdout)
+
+    def test_has_an_si_column_with_scales(self):
+        scales = {"mass": 0.1, "stiffness": 4000.0, "force": 8.0}
+        self.assertIn(" mm", self.align("trial", self.scene(scales=scales)).stdout)
+
+    def test_draws_no_progress_bar_into_a_file(self):
+        self.assertNotIn("\r", self.align("trial", self.scene()).stdout)
+
+
+class GeneralTest(AlignTestCase):
+    def test_without_a_command_prints_help(self):
+        process = self.align()
+        self.assertEqual(process.returncode, 0)
+        self.assertIn("trial", process.stdout)
+
+    def test_help(self):
+        for arguments in (["--help"], ["trial", "--help"]):
+            process = self.align(*arguments)
+            self.assertEqual(process.returncode, 0)
+            self.assertEqual(process.stderr, "")
+            self.assertIn("Exit status", process.stdout)
+
+    def test_version_is_that_of_the_package(self):
+        with open(os.path.join(SOURCE_ROOT, "package.xml")) as file:
+            version = file.read().split("<version>")[1].split("</version>")[0]
+        self.assertEqual(self.align("--version").stdout, "align %s\n" % version)
+
+    def test_lost_report_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            process = self.align("trial", self.scene(), stdout=full)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("stdout", process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
