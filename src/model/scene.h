@@ -12,6 +12,7 @@
 
 namespace vibratory_alignment {
 
+// In scene_loader.cpp the words for these stand in the same order.
 enum class Units { dimensionless, si };
 enum class Direction { x, y, phi };
 enum class Waveform { sine, square, triangle, chirp };
@@ -103,7 +104,7 @@ struct TrialSettings {
 };
 
 struct SolverSettings {
-  std::string name = "event";
+  std::string name = "event";          ///< one of solver_names.h
   double tolerance = 1.0e-8;
   std::optional<double> step;          ///< fixed-step solvers, in units of time
   long step_limit = 20'000'000;        ///< more steps than this end the trial as failed

@@ -17,7 +17,7 @@ class Search {
   Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries)
       : system_(system), series_(series), segment_(segment), pins_(pins), recoveries_(recoveries),
         order_(segment.order), duration_(segment.duration) {
-    bound_travel();
+    bound_motion();
   }
 
   FoundEvents run(const OutcomeGuards& outcomes) {
@@ -58,30 +58,77 @@ class Search {
     found_.events[found_.count++] = {kind, site, face};
   }
 
-  /// Largest way that C and the tilt can go during the segment.
-  void bound_travel() {
-    double power = duration_;
-    for (int k = 1; k <= order_; ++k, power *= duration_) {
-      travel_ += (std::abs(segment_.x[k]) + std::abs(segment_.y[k])) * power;
-      turn_ += std::abs(segment_.phi[k]) * power;
+  Vec2 start_point(Site site) const {
+    return site_point(system_, {segment_.x[0], segment_.y[0], segment_.phi[0], 0.0, 0.0, 0.0}, site);
+  }
+
+  /// Largest speeds, accelerations and turn during the segment, from the absolute values of the series' terms.
+  void bound_motion() {
+    double power = 1.0;
+    for (int k = 1; k <= order_; ++k) {
+      const double speed_term = k * power;
+      speed_ += (std::abs(segment_.x[k]) + std::abs(segment_.y[k])) * speed_term;
+      turn_rate_ += std::abs(segment_.phi[k]) * speed_term;
+      power *= duration_;
+    }
+    power = 1.0;
+    for (int k = 2; k <= order_; ++k) {
+      const double term = k * (k - 1) * power;
+      acceleration_ += (std::abs(segment_.x[k]) + std::abs(segment_.y[k])) * term;
+      turn_acceleration_ += std::abs(segment_.phi[k]) * term;
+      power *= duration_;
     }
   }
 
-  /// True when a site's point surely stays outside during the segment.
-  bool stays_outside(Site site, const Region& region) const {
-    const State state{segment_.x[0], segment_.y[0], segment_.phi[0], 0.0, 0.0, 0.0};
-    const Vec2 p = site_point(system_, state, site);
-    const double reach = is_edge(site) ? std::hypot(p.x, p.y) : std::hypot(system_.half_width, system_.base_distance);
-    const double way = travel_ + turn_ * (reach + travel_);
-    for (int j = 0; j < region.count; ++j)
-      if (region.conditions[j].value(p) + way < 0.0) return true;
+  /// A site's point at the segment's start with its rate, and a bound on its second derivative during the segment.
+  struct PointBound {
+    Vec2 p, rate;
+    double acceleration = 0.0;
+  };
+
+  PointBound bound_point(Site site) const {
+    const double vx = segment_.vx[0], vy = segment_.vy[0], omega = segment_.omega[0];
+    PointBound bound;
+    bound.p = start_point(site);
+    double reach = 0.0;
+    if (is_edge(site)) {
+      // (u, w)' = -(v.e1, v.e2) + omega (w, -u)
+      const double c = segment_.cos_phi[0], s = segment_.sin_phi[0];
+      bound.rate = {-(vx * c + vy * s) + omega * bound.p.y, vx * s - vy * c - omega * bound.p.x};
+      reach = std::abs(bound.p.x) + std::abs(bound.p.y) + speed_ * duration_;
+    } else {
+      const double rx = bound.p.x - segment_.x[0], ry = bound.p.y - segment_.y[0];
+      bound.rate = {vx - omega * ry, vy + omega * rx};
+      reach = std::abs(rx) + std::abs(ry);
+    }
+    bound.acceleration =
+        acceleration_ + 2.0 * turn_rate_ * speed_ + reach * (turn_acceleration_ + turn_rate_ * turn_rate_);
+    return bound;
+  }
+
+  /// Largest value of a condition during the segment, at most; `sign` = -1: smallest, at least, negated.
+  double largest(const RegionCondition& condition, const PointBound& bound, double sign, bool at_zero) const {
+    const double value = at_zero ? 0.0 : sign * condition.value(bound.p);
+    const double rate = sign * (condition.c1 * bound.rate.x + condition.c2 * bound.rate.y);
+    // a parabola that opens upward: largest at an end
+    const double change = (rate + 0.5 * bound.acceleration * duration_) * duration_;
+    return at_zero ? change : std::max(value, value + change);
+  }
+
+  /// True when a site's point surely stays outside during the segment. `pinned`: face on which the point starts.
+  bool stays_outside(Site site, const Region& region, Face pinned) const {
+    const PointBound bound = bound_point(site);
+    for (int j = 0; j < region.count; ++j) {
+      const RegionCondition& condition = region.conditions[j];
+      if (largest(condition, bound, 1.0, pinned != Face::none && condition.face == pinned) < 0.0) return true;
+    }
     return false;
   }
 
   Series condition_series(const RegionCondition& condition, Site site) {
-    const MotionSeries::Point& p = series_.point(site, segment_);
+    const PairSeries& p = series_.point(site, segment_);
     Series g;
-    for (int k = 0; k <= order_; ++k) g[k] = condition.c1 * p.p1[k] + condition.c2 * p.p2[k];
+    for (int k = 0; k <= order_; ++k) g[k] = condition.c1 * p[k][0] + condition.c2 * p[k][1];
     g[0] += condition.c0;
     return g;
   }
@@ -93,10 +140,11 @@ class Search {
   }
 
   void guard_limits(Site site, Face face) {
-    const Vec2 p{series_.point(site, segment_).p1[0], series_.point(site, segment_).p2[0]};
-    const Region limits = face_limits(system_, face, p);
+    const PointBound bound = bound_point(site);
+    const Region limits = face_limits(system_, face, bound.p);
     for (int j = 0; j < limits.count; ++j) {
       const RegionCondition& limit = limits.conditions[j];
+      if (largest(limit, bound, -1.0, false) < 0.0) continue;
       offer(first_fall(condition_series(limit, site), order_, duration_, 0), EventKind::run_off, site, limit.face);
     }
   }
@@ -162,15 +210,16 @@ class Search {
     const auto index = static_cast<std::size_t>(site);
     for (int half = 0; half < region_count(site); ++half) {
       const Region region = site_region(system_, site, half);
-      if (stays_outside(site, region)) continue;
+      if (stays_outside(site, region, pins_[index].face)) continue;
       Conditions conditions;
       conditions.count = region.count;
       for (int j = 0; j < region.count; ++j) {
         const Face face = region.conditions[j].face;
         conditions.g[j] = condition_series(region.conditions[j], site);
-        conditions.zeros_at_start[j] = pins_[index].face == face ? 1 : 0;
-        if (recoveries_[index].deformation > 0.0 && recoveries_[index].face == face)
-          subtract_recovery(recoveries_[index], conditions.g[j]);
+        // where the base has not recovered yet, the point leaves its face inside the deformed base
+        const bool recovering = recoveries_[index].deformation > 0.0 && recoveries_[index].face == face;
+        if (recovering) subtract_recovery(recoveries_[index], conditions.g[j]);
+        conditions.zeros_at_start[j] = pins_[index].face == face && !recovering ? 1 : 0;
       }
       const Entry entry = first_entry(conditions, order_, duration_);
       if (entry.time == kNoRoot) continue;
@@ -184,12 +233,13 @@ class Search {
   bool over_floor(Site site, double time) {
     const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
     if (segment_.contacts[static_cast<std::size_t>(corner)].touching()) return true;
-    return std::abs(value_at(series_.point(site, segment_).p1, order_, time)) <= system_.slot_half_width;
+    const Series across = condition_series({1.0, 0.0, 0.0, Face::none}, site);
+    return std::abs(value_at(across, order_, time)) <= system_.slot_half_width;
   }
 
   void guard_free(Site site) {
     // free inside: until the point is outside again
-    const Vec2 p{series_.point(site, segment_).p1[0], series_.point(site, segment_).p2[0]};
+    const Vec2 p = start_point(site);
     const int half = region_count(site) == 2 && p.x < 0.0 ? 1 : 0;
     const Region region = site_region(system_, site, half);
     for (int j = 0; j < region.count; ++j) {
@@ -208,7 +258,7 @@ class Search {
     };
     for (const Site site : {Site::b1, Site::b2}) {
       const Region below{{RegionCondition{0.0, -1.0, -depth, Face::none}}, 1};
-      if (stays_outside(site, below)) return;
+      if (stays_outside(site, below, Face::none)) return;
       add(below.conditions[0], site);
     }
     for (const Site site : {Site::b1, Site::b2}) {
@@ -226,7 +276,7 @@ class Search {
   const Recoveries& recoveries_;
   int order_;
   double duration_;
-  double travel_ = 0.0, turn_ = 0.0;
+  double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
   FoundEvents found_;
 };
 

@@ -11,8 +11,11 @@ namespace vibratory_alignment {
 namespace {
 
 /// Flight: order of the series in which events are sought, and their truncation error relative to the motion.
-constexpr int kFlightOrder = 20;
-constexpr double kFlightTolerance = 1e-16;
+constexpr int kFlightOrder = 22;
+constexpr double kFlightTolerance = 1e-15;
+
+/// Truncation error below which rounding is all that is left.
+constexpr double kSmallestTolerance = 1e-16;
 
 /// Truncation error of a contact step as a share of the tolerance asked for: what a step leaves behind is amplified by
 /// the impacts after it and adds up in the energy.
@@ -51,7 +54,7 @@ bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx +
 
 EventSolver::EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance,
                          long step_limit)
-    : system_(system), tolerance_(std::max(kStepShare * tolerance, kFlightTolerance)),
+    : system_(system), tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
       contact_order_(series_order(tolerance_)), step_limit_(step_limit),
       series_(system_), free_x_(excitations.size()), free_y_(excitations.size()), free_phi_(excitations.size()) {
   if (excitations.size() > DriveForms::kMax)
@@ -162,6 +165,7 @@ const Segment& EventSolver::advance(double limit) {
     series_.expand_free(state_, drives, kFlightOrder, segment_);
     step = series_step(segment_, kFlightTolerance);
   }
+  step = limit_turn(segment_, contact ? tolerance_ : kFlightTolerance, step);
   counts_.rhs_evaluations += segment_.order;
   for (const Recovery& recovery : mode_.recoveries)
     if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
@@ -197,7 +201,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
 
   segment_.event_count = 0;
   if (found.count > 0 || kink) next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), found);
-  else next_mode_.pins = {};
+  else if (segment_.duration > 0.0) next_mode_.pins = {};
   for (int i = 0; i < found.count; ++i)
     segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
   if (kink && segment_.event_count < kMaxEvents)
@@ -215,19 +219,21 @@ void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
   std::vector<Drive>& drives = started_ ? next_drives_ : drives_;
   const Instant when = started_ ? segment_.start + segment_.duration : now_;
   for (std::size_t i = 0; i < drives.size() && i < excitations.size(); ++i) drives[i].change(excitations[i], when);
-  in_flight_ = false;
-  // a jump of the excitation may end sticking
-  FoundEvents none;
-  if (started_) next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, when), none);
+  if (!started_) next_drives_ = drives_;
+  forces_jump();
 }
 
 void EventSolver::set_anchor_y(double anchor_y) {
   system_.y.anchor = anchor_y;
+  forces_jump();
+}
+
+/// A jump of the forces may end sticking, and ends the closed form of a flight.
+void EventSolver::forces_jump() {
   in_flight_ = false;
-  FoundEvents none;
-  if (started_)
-    next_mode_ = apply_events(system_, segment_, next_mode_,
-                              forms_at(next_drives_, segment_.start + segment_.duration), none);
+  if (!started_) return;
+  const Instant end = segment_.start + segment_.duration;
+  decide_friction_anew(system_, segment_.end, forms_at(next_drives_, end), next_mode_);
 }
 
 std::unique_ptr<Solver> make_solver(const System& system, const std::vector<Excitation>& excitations,

@@ -26,6 +26,7 @@ class EventSolver final : public Solver {
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
+  void forces_jump();
   [[noreturn]] void fail(const std::string& reason) const;
 
   System system_;

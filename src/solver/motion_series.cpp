@@ -60,6 +60,7 @@ void MotionSeries::start(const State& start, const DriveForms& drives, int order
   segment.cos_phi[0] = std::cos(start.phi);
   segment.sin_phi[0] = std::sin(start.phi);
   known_trig_ = 0;
+  trig_term(0, segment);
   known_point_.fill(-1);
   for (Series* series : {&segment.drive_x, &segment.drive_y, &segment.drive_phi})
     std::fill(series->begin(), series->begin() + order + 1, 0.0);
@@ -73,61 +74,56 @@ void MotionSeries::start(const State& start, const DriveForms& drives, int order
 }
 
 /// Velocity of power k + 1 and position of power k + 2 from the forces of power k.
-void MotionSeries::accelerate(int k, double fx, double fy, double m, Segment& segment) const {
-  const auto axis_term = [k](const Axis& axis, double force, Series& q, Series& v) {
+void MotionSeries::accelerate(int k, const Load& load, Segment& segment) const {
+  const double inverse = 1.0 / (k + 1), next_inverse = 1.0 / (k + 2);
+  const auto axis_term = [&](const Axis& axis, double force, Series& q, Series& v) {
     const double stretch = k == 0 ? q[0] - axis.anchor : q[k];
-    v[k + 1] = axis.inverse_inertia * (force - axis.damping * v[k] - axis.stiffness * stretch) / (k + 1);
-    q[k + 2] = v[k + 1] / (k + 2);
+    v[k + 1] = axis.inverse_inertia * (force - axis.damping * v[k] - axis.stiffness * stretch) * inverse;
+    q[k + 2] = v[k + 1] * next_inverse;
   };
   const double weight = k == 0 ? system_.weight : 0.0;
-  axis_term(system_.x, segment.drive_x[k] + fx, segment.x, segment.vx);
-  axis_term(system_.y, segment.drive_y[k] + fy - weight, segment.y, segment.vy);
-  axis_term(system_.phi, segment.drive_phi[k] + m, segment.phi, segment.omega);
+  axis_term(system_.x, segment.drive_x[k] + load.force[0], segment.x, segment.vx);
+  axis_term(system_.y, segment.drive_y[k] + load.force[1] - weight, segment.y, segment.vy);
+  axis_term(system_.phi, segment.drive_phi[k] + load.moment, segment.phi, segment.omega);
 }
 
 void MotionSeries::expand_free(const State& start, const DriveForms& drives, int order, Segment& segment) {
   this->start(start, drives, order, segment);
   segment.loaded_count = 0;
-  for (int k = 0; k < order; ++k) accelerate(k, 0.0, 0.0, 0.0, segment);
+  for (int k = 0; k < order; ++k) accelerate(k, Load{}, segment);
 }
 
-void MotionSeries::trig_term(int k, Segment& segment) const {
-  // c' = -s omega, s' = c omega
-  double c = 0.0, s = 0.0;
-  for (int j = 0; j < k; ++j) {
-    c -= segment.sin_phi[j] * segment.omega[k - 1 - j];
-    s += segment.cos_phi[j] * segment.omega[k - 1 - j];
-  }
-  segment.cos_phi[k] = c / k;
-  segment.sin_phi[k] = s / k;
+void MotionSeries::trig_term(int k, Segment& segment) {
+  // (c, s)' = omega (-s, c)
+  if (k > 0) direction_[k] = product_term(turned_, segment.omega, k - 1) / k;
+  else direction_[0] = Pair(segment.cos_phi[0], segment.sin_phi[0]);
+  turned_[k] = Pair(-direction_[k][1], direction_[k][0]);
+  segment.cos_phi[k] = direction_[k][0];
+  segment.sin_phi[k] = direction_[k][1];
 }
 
 void MotionSeries::point_term(Site site, int k, const Segment& segment) {
-  Point& point = points_[static_cast<std::size_t>(point_index(site))];
-  const Series& c = segment.cos_phi;
-  const Series& s = segment.sin_phi;
-  if (is_edge(site)) {
-    // u = rx c + ry s, w = ry c - rx s with rx = A_x - x, ry = -y
-    const double edge_x = side_of(site) * system_.slot_half_width;
-    double u = (edge_x - segment.x[0]) * c[k] - segment.y[0] * s[k];
-    double w = -segment.y[0] * c[k] - (edge_x - segment.x[0]) * s[k];
-    for (int j = 1; j <= k; ++j) {
-      u -= segment.x[j] * c[k - j] + segment.y[j] * s[k - j];
-      w += segment.x[j] * s[k - j] - segment.y[j] * c[k - j];
-    }
-    point.p1[k] = u;
-    point.p2[k] = w;
-  } else {
+  const int index = point_index(site);
+  known_point_[index] = k;
+  if (!is_edge(site)) {
     const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-    point.p1[k] = segment.x[k] + beta * c[k] + b * s[k];
-    point.p2[k] = segment.y[k] + beta * s[k] - b * c[k];
+    points_[index][k] = Pair(segment.x[k], segment.y[k]) + beta * direction_[k] - b * turned_[k];
+    return;
   }
-  known_point_[static_cast<std::size_t>(point_index(site))] = k;
+  // (u, w) = c (rx, ry) + s (ry, -rx)
+  const double edge_x = k == 0 ? side_of(site) * system_.slot_half_width : 0.0;
+  PairSeries& lever = levers_[index];
+  PairSeries& crossed = crossed_[index];
+  lever[k] = Pair(edge_x - segment.x[k], -segment.y[k]);
+  crossed[k] = Pair(lever[k][1], -lever[k][0]);
+  Pair sum = lever[0] * segment.cos_phi[k] + crossed[0] * segment.sin_phi[k];
+  for (int j = 1; j <= k; ++j) sum += lever[j] * segment.cos_phi[k - j] + crossed[j] * segment.sin_phi[k - j];
+  points_[index][k] = sum;
 }
 
-const MotionSeries::Point& MotionSeries::point(Site site, Segment& segment) {
-  for (; known_trig_ < order_; ++known_trig_) trig_term(known_trig_ + 1, segment);
-  const auto index = static_cast<std::size_t>(point_index(site));
+const PairSeries& MotionSeries::point(Site site, Segment& segment) {
+  while (known_trig_ < order_) trig_term(++known_trig_, segment);
+  const int index = point_index(site);
   while (known_point_[index] < order_) point_term(kPointSites[index], known_point_[index] + 1, segment);
   return points_[index];
 }
@@ -171,28 +167,23 @@ void MotionSeries::push_series(const Segment& segment, Face face, const Series& 
 /// Directions in which a contact's forces act, power k: sliding contacts take N and T together.
 void MotionSeries::direction_terms(Contact& contact, int k, const Segment& segment) const {
   const ContactFrame& f = contact.frame;
-  const Point& point = points_[static_cast<std::size_t>(point_index(contact.site))];
+  const Pair& p = points_[point_index(contact.site)][k];
   const double a = f.n1 + contact.ratio * f.t1(), b = f.n2 + contact.ratio * f.t2();
   Directions& d = contact.d;
   if (is_edge(contact.site)) {
-    // body components (a, b): world (a c - b s, a s + b c), moment b u - a w
-    const double c = segment.cos_phi[k], s = segment.sin_phi[k];
-    d.nx[k] = a * c - b * s;
-    d.ny[k] = a * s + b * c;
-    d.nm[k] = b * point.p1[k] - a * point.p2[k];
+    // body components (a, b): world a (c, s) + b (-s, c), moment b u - a w
+    d.n[k] = a * direction_[k] + b * turned_[k];
+    d.nm[k] = b * p[0] - a * p[1];
     if (!contact.separate_t) return;
-    d.tx[k] = f.t1() * c - f.t2() * s;
-    d.ty[k] = f.t1() * s + f.t2() * c;
-    d.tm[k] = f.t2() * point.p1[k] - f.t1() * point.p2[k];
+    d.t[k] = f.t1() * direction_[k] + f.t2() * turned_[k];
+    d.tm[k] = f.t2() * p[0] - f.t1() * p[1];
   } else {
     // world components (a, b), moment b r_x - a r_y
-    const double rx = point.p1[k] - segment.x[k], ry = point.p2[k] - segment.y[k];
-    d.nx[k] = k == 0 ? a : 0.0;
-    d.ny[k] = k == 0 ? b : 0.0;
+    const double rx = p[0] - segment.x[k], ry = p[1] - segment.y[k], one = k == 0 ? 1.0 : 0.0;
+    d.n[k] = Pair(a * one, b * one);
     d.nm[k] = b * rx - a * ry;
     if (!contact.separate_t) return;
-    d.tx[k] = k == 0 ? f.t1() : 0.0;
-    d.ty[k] = k == 0 ? f.t2() : 0.0;
+    d.t[k] = Pair(f.t1() * one, f.t2() * one);
     d.tm[k] = f.t2() * rx - f.t1() * ry;
   }
 }
@@ -203,11 +194,11 @@ void MotionSeries::force_terms(int k, Segment& segment) {
     Contact& contact = contacts_[i];
     ContactSeries& series = segment.loaded[i];
     const ContactFrame& f = contact.frame;
-    const Point& point = points_[static_cast<std::size_t>(point_index(contact.site))];
-    if (k == 0) series.depth[0] = f.depth(point.p1[0], point.p2[0]);
-    series.depth[k + 1] = f.sign * (f.n1 * point.p1[k + 1] + f.n2 * point.p2[k + 1]);
+    const PairSeries& point = points_[point_index(contact.site)];
+    if (k == 0) series.depth[0] = f.depth(point[0][0], point[0][1]);
+    series.depth[k + 1] = f.sign * (f.n1 * point[k + 1][0] + f.n2 * point[k + 1][1]);
     const double depth_rate = (k + 1) * series.depth[k + 1];
-    series.slip_velocity[k] = -f.sign * (k + 1) * (f.t1() * point.p1[k + 1] + f.t2() * point.p2[k + 1]);
+    series.slip_velocity[k] = -f.sign * (k + 1) * (f.t1() * point[k + 1][0] + f.t2() * point[k + 1][1]);
     if (contact.turning) {
       turning_term(system_, contact.face, k, segment, contact.k[k], contact.h[k]);
       series.normal_force[k] = turning_push(contact.k, contact.h, series.depth, k);
@@ -239,7 +230,8 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
       for (int n = 0; n < sticking_count_; ++n) {
         const Directions& a = contacts_[sticking_[m]].d;
         const Directions& b = contacts_[sticking_[n]].d;
-        mobility_[m][n] = system_.x.inverse_inertia * a.tx[0] * b.tx[0] + system_.y.inverse_inertia * a.ty[0] * b.ty[0] +
+        mobility_[m][n] = system_.x.inverse_inertia * a.t[0][0] * b.t[0][0] +
+                          system_.y.inverse_inertia * a.t[0][1] * b.t[0][1] +
                           system_.phi.inverse_inertia * a.tm[0] * b.tm[0];
       }
   }
@@ -249,21 +241,43 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   for (int m = 0; m < sticking_count_; ++m) {
     const Contact& contact = contacts_[sticking_[m]];
     point_term(contact.site, k + 2, segment);
-    const Point& point = points_[static_cast<std::size_t>(point_index(contact.site))];
+    const PairSeries& point = points_[point_index(contact.site)];
     const ContactFrame& f = contact.frame;
-    rhs[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point.p1[k + 2] + f.t2() * point.p2[k + 2]);
+    rhs[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point[k + 2][0] + f.t2() * point[k + 2][1]);
   }
   solve_mobility(mobility_, sticking_count_, rhs, force);
   for (int m = 0; m < sticking_count_; ++m) {
     const Directions& d = contacts_[sticking_[m]].d;
     segment.loaded[sticking_[m]].tangential_force[k] = force[m];
-    segment.vx[k + 1] += system_.x.inverse_inertia * d.tx[0] * force[m] / (k + 1);
-    segment.vy[k + 1] += system_.y.inverse_inertia * d.ty[0] * force[m] / (k + 1);
+    segment.vx[k + 1] += system_.x.inverse_inertia * d.t[0][0] * force[m] / (k + 1);
+    segment.vy[k + 1] += system_.y.inverse_inertia * d.t[0][1] * force[m] / (k + 1);
     segment.omega[k + 1] += system_.phi.inverse_inertia * d.tm[0] * force[m] / (k + 1);
   }
   segment.x[k + 2] = segment.vx[k + 1] / (k + 2);
   segment.y[k + 2] = segment.vy[k + 1] / (k + 2);
   segment.phi[k + 2] = segment.omega[k + 1] / (k + 2);
+}
+
+MotionSeries::Load MotionSeries::contact_load(int k, const Segment& segment) const {
+  Load load;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const Contact& contact = contacts_[i];
+    const Directions& d = contact.d;
+    const Series& n = segment.loaded[i].normal_force;
+    for (int j = 0; j <= k; ++j) {
+      load.force += d.n[j] * n[k - j];
+      load.moment += d.nm[j] * n[k - j];
+    }
+    if (!contact.separate_t) continue;
+    // what holds a sticking contact is not known yet in this power
+    const Series& t = segment.loaded[i].tangential_force;
+    const int first = contact.slip == Slip::stick ? 1 : 0;
+    for (int j = first; j <= k; ++j) {
+      load.force += d.t[j] * t[k - j];
+      load.moment += d.tm[j] * t[k - j];
+    }
+  }
+  return load;
 }
 
 void MotionSeries::expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment) {
@@ -277,25 +291,7 @@ void MotionSeries::expand_contact(const State& start, const DriveForms& drives, 
     for (int i = 0; i < segment.loaded_count; ++i) point_term(contacts_[i].site, k + 1, segment);
     force_terms(k, segment);
     if (k == order) break;
-    double fx = 0.0, fy = 0.0, m = 0.0;
-    for (int i = 0; i < segment.loaded_count; ++i) {
-      const Directions& d = contacts_[i].d;
-      const Series& n = segment.loaded[i].normal_force;
-      for (int j = 0; j <= k; ++j) {
-        fx += n[j] * d.nx[k - j];
-        fy += n[j] * d.ny[k - j];
-        m += n[j] * d.nm[k - j];
-      }
-      if (!contacts_[i].separate_t) continue;
-      const Series& t = segment.loaded[i].tangential_force;
-      const int known = contacts_[i].slip == Slip::stick ? k - 1 : k;
-      for (int j = 0; j <= known; ++j) {
-        fx += t[j] * d.tx[k - j];
-        fy += t[j] * d.ty[k - j];
-        m += t[j] * d.tm[k - j];
-      }
-    }
-    accelerate(k, fx, fy, m, segment);
+    accelerate(k, contact_load(k, segment), segment);
     if (sticking_count_ > 0) hold_sticking(k, segment);
   }
   // the highest power of what sticks is not determined yet at `order`; V itself is zero by construction

@@ -29,18 +29,16 @@ class MotionSeries {
   void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
 
   /// Coordinates of a site's point (body coordinates of an edge, position of a corner), made on the first call.
-  struct Point {
-    Series p1{}, p2{};
-  };
-  const Point& point(Site site, Segment& segment);
+  const PairSeries& point(Site site, Segment& segment);
 
   /// k d + h d' of a contact on `face` with depth series d, to power order - 1 (trigonometric series must be known:
   /// call point() first).
   void push_series(const Segment& segment, Face face, const Series& depth, Series& push) const;
 
  private:
-  struct Directions {  ///< force per unit of N (with sliding friction included) and per unit of T
-    Series nx{}, ny{}, nm{}, tx{}, ty{}, tm{};
+  struct Directions {  ///< force (x, y) and moment per unit of N (sliding friction included) and per unit of T
+    PairSeries n, t;
+    Series nm{}, tm{};
   };
   struct Contact {
     Site site = Site::a1;
@@ -56,20 +54,28 @@ class MotionSeries {
     Series tanh{}, sech2{};   ///< regularised: tanh(V/eps) and 1 - tanh^2
   };
 
+  struct Load {  ///< forces and moment of all contacts, one power
+    Pair force{0.0, 0.0};
+    double moment = 0.0;
+  };
+
   void start(const State& start, const DriveForms& drives, int order, Segment& segment);
   void set_up_contacts(Segment& segment);
-  void trig_term(int k, Segment& segment) const;
+  void trig_term(int k, Segment& segment);
   void point_term(Site site, int k, const Segment& segment);
   void force_terms(int k, Segment& segment);
   void hold_sticking(int k, Segment& segment);
   void direction_terms(Contact& contact, int k, const Segment& segment) const;
-  void accelerate(int k, double fx, double fy, double m, Segment& segment) const;
+  Load contact_load(int k, const Segment& segment) const;
+  void accelerate(int k, const Load& load, Segment& segment) const;
 
   const System& system_;
   int order_ = 0;
   int known_trig_ = 0;  ///< highest known power of cos and sin
   std::array<Contact, kSiteCount> contacts_;
-  std::array<Point, 4> points_;         ///< a1, a2, b1, b2 (floor sites share their corner)
+  PairSeries direction_, turned_;       ///< (cos phi, sin phi) and (-sin phi, cos phi)
+  std::array<PairSeries, 4> points_;    ///< a1, a2, b1, b2 (floor sites share their corner)
+  std::array<PairSeries, 2> levers_, crossed_;  ///< edges: A - C = (r_x, r_y) and (r_y, -r_x), world axes
   std::array<int, 4> known_point_{};    ///< highest known power, -1: none
   int sticking_count_ = 0;
   std::array<int, kSiteCount> sticking_{};  ///< indices into segment.loaded

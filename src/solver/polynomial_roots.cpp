@@ -70,7 +70,7 @@ double first_fall_on_unit(const Series& g, int order, int halvings) {
   if (slope.low >= 0.0) return kNoRoot;
   if (slope.high <= 0.0) return value_at(g, order, 1.0) < 0.0 ? falling_root(g, order) : kNoRoot;
   if (halvings == kMaxHalvings) return value_at(g, order, 1.0) < 0.0 ? 1.0 : kNoRoot;
-  Series half;
+  Series half{};
   left_half(g, order, half);
   const double left = first_fall_on_unit(half, order, halvings + 1);
   if (left != kNoRoot) return 0.5 * left;
@@ -127,7 +127,12 @@ Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kM
 
 double first_fall(const Series& g, int order, double h, int zeros_at_start) {
   Series unit{};
-  scale_to_unit(g, order, h, unit);
+  double power = 1.0, low = 0.0;
+  for (int k = 0; k <= order; ++k, power *= h) {
+    unit[k] = g[k] * power;
+    if (k == 0 || unit[k] < 0.0) low += unit[k];
+  }
+  if (low > 0.0 && zeros_at_start == 0) return kNoRoot;
   if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);
   if (unit[0] <= 0.0 && zeros_at_start == 0) order = deflate(unit, order, 1);
   // what starts at an exact zero is judged by its first coefficient that is not

@@ -3,11 +3,24 @@
 
 #include <array>
 
+#include <Eigen/Core>
+
 namespace vibratory_alignment {
 
 /// Highest power kept anywhere; two more places serve positions, which are known two orders ahead of forces.
 constexpr int kMaxOrder = 24;
 using Series = std::array<double, kMaxOrder + 3>;
+
+/// Two series side by side, for what comes in pairs: x and y, cos and sin. Summed two at a time by the processor.
+using Pair = Eigen::Array2d;
+using PairSeries = std::array<Pair, kMaxOrder + 3>;
+
+/// Coefficient k of the product of a pair of series with a series.
+inline Pair product_term(const PairSeries& a, const Series& b, int k) {
+  Pair sum = a[0] * b[k];
+  for (int j = 1; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
 
 /// Coefficient k of the product of two series.
 inline double product_term(const Series& a, const Series& b, int k) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace vibratory_alignment {
@@ -10,11 +12,11 @@ namespace {
 constexpr int kLeadingTerms = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Base-2 logarithm good to 0.1, the same on every machine.
+/// Base-2 logarithm of a normal positive number, good to 0.1: exponent and leading digits, read off its bits.
 double rough_log2(double value) {
-  int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);
-  return exponent + 2.0 * (mantissa - 1.0);
+  std::int64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return static_cast<double>(bits) * 0x1p-52 - 1023.0;
 }
 
 /// log2 of the time at which term k has fallen to `tolerance` times the largest leading term.
@@ -39,6 +41,19 @@ double series_step(const Segment& segment, double tolerance) {
     shortest = std::min({shortest, log2_step(*v, order, log2_tolerance), log2_step(*v, order - 1, log2_tolerance)});
   }
   return std::exp2(shortest);
+}
+
+double limit_turn(const Segment& segment, double tolerance, double step) {
+  if (segment.omega[0] == 0.0 && segment.omega[1] == 0.0 && segment.omega[2] == 0.0) return step;
+  // remainder of the series for a turn alpha: alpha^n / n!, n = order + 1
+  const int n = segment.order + 1;
+  const double allowed = std::exp((std::log(tolerance) + std::lgamma(n + 1.0)) / n);
+  double turn = 0.0, power = 1.0;
+  for (int k = 1; k <= segment.order; ++k) {
+    power *= step;
+    turn += std::abs(segment.phi[k]) * power;
+  }
+  return turn > allowed ? step * allowed / turn : step;
 }
 
 int series_order(double tolerance) {

@@ -183,7 +183,8 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
         mode.recoveries[index] = {};
         break;
       case EventKind::release:
-        pins.normal = 1;
+        // a base that recovers leaves with the part: depth and deformation agree in value and rate
+        pins.normal = system.recovery ? 2 : 1;
         if (is_undamped(system, state, contact.face)) {
           // N = k d: force and depth end together
           pins.face = contact.face;
@@ -235,17 +236,25 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
   return mode;
 }
 
+void decide_friction_anew(const System& system, const State& state, const DriveForms& drives, ContactMode& mode) {
+  set_friction(system, state, drives, {}, {}, {}, mode);
+}
+
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives) {
   ContactMode mode{};
   place_contacts(system, start, mode.contacts);
+  for (std::size_t i = 0; i < kSiteCount; ++i)
+    if (system.recovery && mode.contacts[i].phase == Phase::unloaded)
+      mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
   set_friction(system, start, drives, {}, {}, {}, mode);
   return mode;
 }
 
 Recovery release_recovery(const System& system, const State& state, Site site, Face face) {
   const double c = std::cos(state.phi), s = std::sin(state.phi);
-  const double depth = contact_kinematics(system, state, site, face).depth;
-  return {depth, stiffness_of(system, face, c, s) / damping_of(system, face, c, s), face};
+  const double damping = damping_of(system, face, c, s);
+  if (damping == 0.0) return {};  // recovers at once
+  return {contact_kinematics(system, state, site, face).depth, stiffness_of(system, face, c, s) / damping, face};
 }
 
 State hold_sticking(const System& system, const State& state, const ContactStates& contacts) {

@@ -19,6 +19,9 @@ struct ContactMode {
 ContactMode apply_events(const System& system, const Segment& segment, const ContactMode& before,
                          const DriveForms& drives_at_end, FoundEvents& events);
 
+/// Decides the friction of every loaded contact anew in `state`: the forces have jumped without an event.
+void decide_friction_anew(const System& system, const State& state, const DriveForms& drives, ContactMode& mode);
+
 /// What the base keeps of its deformation when the contact at `site` is released.
 Recovery release_recovery(const System& system, const State& state, Site site, Face face);
 

@@ -111,7 +111,7 @@ void EnergyAccount::book_contacts(const Segment& segment) {
 void EnergyAccount::move_anchor_y(double anchor_y, const State& state) {
   const double before = mechanical(state);
   system_.y.anchor = anchor_y;
-  ledger_.excitation_work += mechanical(state) - before;
+  if (started_) ledger_.excitation_work += mechanical(state) - before;
 }
 
 EnergyLedger EnergyAccount::ledger() const {

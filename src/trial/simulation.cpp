@@ -64,7 +64,8 @@ class Simulation::Impl {
     if (!touch) throw std::invalid_argument("this scene has no touching height, so no pressing force can be set");
     system_.y.anchor = *touch - pressing_force;
     solver_->set_anchor_y(system_.y.anchor);
-    if (options_.energy) pending_anchor_ = system_.y.anchor;
+    if (options_.energy && has_segment_) pending_anchor_ = system_.y.anchor;
+    else energy_.move_anchor_y(system_.y.anchor, system_.start);
     settling_.restart(excitations_, has_segment_ ? segment().end_time() : 0.0);
   }
 
