@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include <Eigen/QR>
 
 namespace vibratory_alignment {
 namespace {
 
-/// Added to the diagonal, relative to its largest entry: makes a singular G share forces, changes none otherwise.
-constexpr double kRidge = 1e-14;
+/// Below this, relative to the largest, a pivot of G is zero: the contacts hold the same motion.
+constexpr double kSingular = 1e-12;
 constexpr double kRoundoff = 1e-12;
 
 using Choice = std::array<Slip, kSiteCount>;
@@ -40,6 +41,7 @@ double violation(const FrictionProblem& problem, const Choice& choice, FrictionS
   for (int m = 0; m < stick_count; ++m) {
     const int i = sticking[m];
     solution.force[i] = force[m];
+    if (!std::isfinite(force[m])) return INFINITY;  // nothing can hold this contact
     worst = std::max(worst, (std::abs(force[m]) - problem.limit[i]) / (std::abs(force[m]) + problem.limit[i] + 1e-300));
   }
   // directions of those that slip
@@ -59,23 +61,23 @@ double violation(const FrictionProblem& problem, const Choice& choice, FrictionS
 
 void solve_mobility(const std::array<std::array<double, kSiteCount>, kSiteCount>& mobility, int count,
                     const std::array<double, kSiteCount>& rhs, std::array<double, kSiteCount>& force) {
-  auto matrix = mobility;
-  force = rhs;
-  double largest = 1e-300;
-  for (int i = 0; i < count; ++i) largest = std::max(largest, matrix[i][i]);
-  for (int i = 0; i < count; ++i) matrix[i][i] += kRidge * largest;
-  // symmetric and positive definite: elimination without pivoting
+  if (count == 1) {
+    force[0] = rhs[0] / mobility[0][0];
+    return;
+  }
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSiteCount, kSiteCount>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSiteCount, 1>;
+  Matrix matrix(count, count);
+  Vector vector(count);
   for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      const double factor = matrix[j][i] / matrix[i][i];
-      for (int n = i; n < count; ++n) matrix[j][n] -= factor * matrix[i][n];
-      force[j] -= factor * force[i];
-    }
+    vector[i] = rhs[i];
+    for (int j = 0; j < count; ++j) matrix(i, j) = mobility[i][j];
   }
-  for (int i = count - 1; i >= 0; --i) {
-    for (int n = i + 1; n < count; ++n) force[i] -= matrix[i][n] * force[n];
-    force[i] /= matrix[i][i];
-  }
+  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition;
+  decomposition.setThreshold(kSingular);
+  decomposition.compute(matrix);
+  const Vector solution = decomposition.solve(vector);
+  for (int i = 0; i < count; ++i) force[i] = solution[i];
 }
 
 FrictionSolution solve_friction(const FrictionProblem& problem) {

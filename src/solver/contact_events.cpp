@@ -12,12 +12,16 @@ namespace {
 /// Events closer together than this (relative to their time) are one.
 constexpr double kCoincidence = 4e-16;
 
+/// A sliding velocity this small, relative to the speed of the part, is zero.
+constexpr double kZeroSlip = 1e-13;
+
 class Search {
  public:
-  Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries)
+  Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries,
+         const DriveForms& drives)
       : system_(system), series_(series), segment_(segment), pins_(pins), recoveries_(recoveries),
         order_(segment.order), duration_(segment.duration) {
-    bound_motion();
+    bound_motion(drives);
   }
 
   FoundEvents run(const OutcomeGuards& outcomes) {
@@ -46,7 +50,7 @@ class Search {
   }
 
  private:
-  void offer(double time, EventKind kind, Site site, Face face = Face::none) {
+  void offer(double time, EventKind kind, Site site, Face face = Face::none, int direction = 0) {
     if (time == kNoRoot) return;
     const double slack = kCoincidence * time;
     if (found_.count > 0 && time > found_.time + slack) return;
@@ -55,29 +59,42 @@ class Search {
       found_.count = 0;
     }
     if (found_.count == kMaxEvents) return;
-    found_.events[found_.count++] = {kind, site, face};
+    found_.events[found_.count++] = {kind, site, face, direction};
   }
 
   Vec2 start_point(Site site) const {
     return site_point(system_, {segment_.x[0], segment_.y[0], segment_.phi[0], 0.0, 0.0, 0.0}, site);
   }
 
-  /// Largest speeds, accelerations and turn during the segment, from the absolute values of the series' terms.
-  void bound_motion() {
-    double power = 1.0;
-    for (int k = 1; k <= order_; ++k) {
-      const double speed_term = k * power;
-      speed_ += (std::abs(segment_.x[k]) + std::abs(segment_.y[k])) * speed_term;
-      turn_rate_ += std::abs(segment_.phi[k]) * speed_term;
-      power *= duration_;
+  /// Largest speeds and accelerations of the axes during the segment.
+  void bound_motion(const DriveForms& drives) {
+    double force_x = 0.0, force_y = system_.weight, moment = 0.0;
+    for (int i = 0; i < drives.count; ++i) {
+      const DriveForm& form = drives.form[i];
+      const double most = std::abs(form.constant) + std::abs(form.slope) * duration_ + std::abs(form.amplitude);
+      (drives.direction[i] == Direction::x ? force_x : drives.direction[i] == Direction::y ? force_y : moment) += most;
     }
-    power = 1.0;
-    for (int k = 2; k <= order_; ++k) {
-      const double term = k * (k - 1) * power;
-      acceleration_ += (std::abs(segment_.x[k]) + std::abs(segment_.y[k])) * term;
-      turn_acceleration_ += std::abs(segment_.phi[k]) * term;
-      power *= duration_;
+    const double ax = most_acceleration(system_.x, segment_.x, segment_.vx, force_x);
+    const double ay = most_acceleration(system_.y, segment_.y, segment_.vy, force_y);
+    turn_acceleration_ = most_acceleration(system_.phi, segment_.phi, segment_.omega, moment);
+    acceleration_ = ax + ay;
+    speed_ = std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + acceleration_ * duration_;
+    turn_rate_ = std::abs(segment_.omega[0]) + turn_acceleration_ * duration_;
+  }
+
+  /// Largest acceleration of an axis: in flight from its equation, where its spring and damper act on at most what the
+  /// acceleration itself makes of the start; else from the absolute values of its series' terms.
+  double most_acceleration(const Axis& axis, const Series& q, const Series& v, double force) const {
+    if (!axis.moves) return 0.0;
+    const double h = duration_, speed = std::abs(v[0]);
+    const double feedback = axis.inverse_inertia * (0.5 * axis.stiffness * h * h + axis.damping * h);
+    if (segment_.loaded_count == 0 && feedback < 0.5) {
+      const double start = force + axis.stiffness * (std::abs(q[0] - axis.anchor) + speed * h) + axis.damping * speed;
+      return axis.inverse_inertia * start / (1.0 - feedback);
     }
+    double sum = 0.0, power = 1.0;
+    for (int k = 1; k <= order_; ++k, power *= h) sum += k * std::abs(v[k]) * power;
+    return sum;
   }
 
   /// A site's point at the segment's start with its rate, and a bound on its second derivative during the segment.
@@ -149,6 +166,13 @@ class Search {
     }
   }
 
+  /// A contact that slides in name only: at its friction limit, but held by another one. V is rounding.
+  bool stays_at_rest(const Series& slip_velocity) const {
+    double sum = 0.0, power = 1.0;
+    for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(slip_velocity[k]) * power;
+    return sum <= kZeroSlip * speed_;
+  }
+
   void guard_loaded(Site site, const ContactSeries& contact) {
     const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
     const SitePins& pins = pins_[static_cast<std::size_t>(site)];
@@ -162,6 +186,7 @@ class Search {
       case Slip::plus:
       case Slip::minus: {
         const double sign = state.slip == Slip::plus ? 1.0 : -1.0;
+        if (stays_at_rest(contact.slip_velocity)) break;
         for (int k = 0; k <= order_; ++k) g[k] = sign * contact.slip_velocity[k];
         g[0] -= kTanhSaturation * system_.regularization;
         offer(first_fall(g, order_, duration_, pins.slip), EventKind::slip_reversal, site);
@@ -170,7 +195,7 @@ class Search {
       case Slip::stick:
         for (const double sign : {1.0, -1.0}) {
           for (int k = 0; k < order_; ++k) g[k] = f * contact.normal_force[k] - sign * contact.tangential_force[k];
-          offer(first_fall(g, order_ - 1, duration_, 0), EventKind::slip, site);
+          offer(first_fall(g, order_ - 1, duration_, 0), EventKind::slip, site, Face::none, sign > 0.0 ? -1 : 1);
         }
         break;
       case Slip::regularized:
@@ -262,7 +287,8 @@ class Search {
       add(below.conditions[0], site);
     }
     for (const Site site : {Site::b1, Site::b2}) {
-      if (!between_walls || segment_.contacts[static_cast<std::size_t>(site)].touching()) continue;
+      const Face face = segment_.contacts[static_cast<std::size_t>(site)].face;
+      if (!between_walls || face == Face::right_wall || face == Face::left_wall) continue;
       add({1.0, 0.0, l, Face::none}, site);
       add({-1.0, 0.0, l, Face::none}, site);
     }
@@ -283,8 +309,8 @@ class Search {
 }  // namespace
 
 FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
-                        const Recoveries& recoveries, const OutcomeGuards& outcomes) {
-  return Search(system, series, segment, pins, recoveries).run(outcomes);
+                        const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives) {
+  return Search(system, series, segment, pins, recoveries, drives).run(outcomes);
 }
 
 }  // namespace vibratory_alignment

@@ -38,6 +38,6 @@ constexpr double kTanhSaturation = 19.1;
 
 /// First event within [0, duration] of the segment, with all that coincide with it.
 FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
-                        const Recoveries& recoveries, const OutcomeGuards& outcomes);
+                        const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives);
 
 }  // namespace vibratory_alignment

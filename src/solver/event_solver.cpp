@@ -48,6 +48,9 @@ bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
 }
 
+/// The last coefficients hold what any of the others is not.
+bool is_finite(const Segment& s) { return std::isfinite(s.vx[s.order] + s.vy[s.order] + s.omega[s.order]); }
+
 bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
 
 }  // namespace
@@ -165,6 +168,7 @@ const Segment& EventSolver::advance(double limit) {
     series_.expand_free(state_, drives, kFlightOrder, segment_);
     step = series_step(segment_, kFlightTolerance);
   }
+  if (!is_finite(segment_)) fail("the motion is no longer finite");
   step = limit_turn(segment_, contact ? tolerance_ : kFlightTolerance, step);
   counts_.rhs_evaluations += segment_.order;
   for (const Recovery& recovery : mode_.recoveries)
@@ -175,7 +179,7 @@ const Segment& EventSolver::advance(double limit) {
   const double to_kink = time_to_kink(drives_, now_);
   segment_.duration = std::min({step, to_limit, to_kink});
   if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
-  FoundEvents found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_);
+  FoundEvents found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
   if (found.count > 0) segment_.duration = found.time;
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
@@ -205,7 +209,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
   for (int i = 0; i < found.count; ++i)
     segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
   if (kink && segment_.event_count < kMaxEvents)
-    segment_.events[static_cast<std::size_t>(segment_.event_count++)] = {EventKind::drive_kink, Site::a1, Face::none};
+    segment_.events[static_cast<std::size_t>(segment_.event_count++)] = {EventKind::drive_kink};
 }
 
 void EventSolver::cut(double duration) {

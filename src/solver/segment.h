@@ -31,6 +31,7 @@ struct Event {
   EventKind kind = EventKind::touch;
   Site site = Site::a1;
   Face face = Face::none;  ///< touched or entered (touch, enter), or through which a point leaves (run_off, leave)
+  int direction = 0;       ///< slip: sign of V with which sliding begins
 };
 
 constexpr int kMaxEvents = 16;

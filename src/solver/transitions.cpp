@@ -11,8 +11,11 @@ namespace {
 /// A sliding velocity this small, relative to the speeds it is made of, is zero.
 constexpr double kZeroSlip = 1e-14;
 
+/// A friction force this near to its limit, relative to it, is at the limit.
+constexpr double kAtLimit = 1e-9;
+
 /// How the friction of a loaded contact enters the decision.
-enum class Ask { keep, decide, forced };
+enum class Ask { keep, decide };
 
 struct LoadedContact {
   std::size_t site = 0;
@@ -51,9 +54,10 @@ double base_force(const System& system, const State& state, Face face, const Con
 /// Slip velocity beyond which a contact slides with the full friction force.
 double sliding_threshold(const System& system) { return kTanhSaturation * system.regularization; }
 
-/// Decides stick and slip of all contacts marked `decide`, with the others sliding as they do.
+/// Decides stick and slip of all contacts marked `decide`, with the others sliding as they do. When one has just broken
+/// (`any_broken`), those that are at their limit too break with it.
 void decide_friction(const System& system, const State& state, const DriveForms& drives,
-                     std::array<LoadedContact, kSiteCount>& loaded, int count, ContactMode& mode) {
+                     std::array<LoadedContact, kSiteCount>& loaded, int count, bool any_broken, ContactMode& mode) {
   FrictionProblem problem;
   std::array<int, kSiteCount> asked{};
   for (int i = 0; i < count; ++i)
@@ -97,16 +101,22 @@ void decide_friction(const System& system, const State& state, const DriveForms&
     const std::size_t site = loaded[asked[i]].site;
     mode.contacts[site].slip = solution.slip[i];
     mode.pins[site].slip = solution.slip[i] == Slip::stick ? 0 : 1;
+    const bool at_limit = std::abs(solution.force[i]) >= (1.0 - kAtLimit) * problem.limit[i];
+    if (any_broken && solution.slip[i] == Slip::stick && at_limit) {
+      mode.contacts[site].slip = solution.force[i] > 0.0 ? Slip::minus : Slip::plus;
+      mode.pins[site].slip = 2;
+    }
   }
 }
 
 /// Sets the law of friction of every loaded contact. `zero_slip` marks those whose V an event has just brought to zero,
-/// `broken` those whose stick an event has just broken.
+/// `broken` (sign of V) those whose stick an event has just broken.
 void set_friction(const System& system, const State& state, const DriveForms& drives,
-                  const std::array<bool, kSiteCount>& zero_slip, const std::array<bool, kSiteCount>& broken,
-                  const std::array<double, kSiteCount>& held_force, ContactMode& mode) {
+                  const std::array<bool, kSiteCount>& zero_slip, const std::array<int, kSiteCount>& broken,
+                  ContactMode& mode) {
   std::array<LoadedContact, kSiteCount> loaded;
   int count = 0;
+  bool any_broken = false;
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     ContactState& contact = mode.contacts[i];
     if (contact.phase != Phase::loaded) {
@@ -130,29 +140,22 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       }
       continue;
     }
-    if (broken[i]) {
-      entry.ask = Ask::forced;
-      contact.slip = held_force[i] > 0.0 ? Slip::minus : Slip::plus;
+    if (broken[i] != 0) {
+      contact.slip = broken[i] > 0 ? Slip::plus : Slip::minus;
       mode.pins[i].slip = 2;
+      any_broken = true;
     } else if (contact.slip == Slip::stick || at_rest) {
       entry.ask = Ask::decide;
     } else if (contact.slip == Slip::none) {
       contact.slip = v > 0.0 ? Slip::plus : Slip::minus;
     }
   }
-  if (system.regularization == 0.0) decide_friction(system, state, drives, loaded, count, mode);
+  if (system.regularization == 0.0) decide_friction(system, state, drives, loaded, count, any_broken, mode);
 }
 
 /// A contact without base damping along its normal: N starts and ends at zero depth.
 bool is_undamped(const System& system, const State& state, Face face) {
   return damping_of(system, face, std::cos(state.phi), std::sin(state.phi)) == 0.0;
-}
-
-double held_force_of(const Segment& segment, Site site) {
-  for (int i = 0; i < segment.loaded_count; ++i)
-    if (segment.loaded[i].site == site)
-      return value_at(segment.loaded[i].tangential_force, segment.order - 1, segment.duration);
-  return 0.0;
 }
 
 }  // namespace
@@ -163,14 +166,16 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
   // what was zero at the start no longer is, unless no time has passed
   if (segment.duration > 0.0) mode.pins = {};
   const State& state = segment.end;
-  std::array<bool, kSiteCount> zero_slip{}, broken{};
-  std::array<double, kSiteCount> held_force{};
+  std::array<bool, kSiteCount> zero_slip{};
+  std::array<int, kSiteCount> broken{};
   for (int i = 0; i < events.count; ++i) {
     const Site site = events.events[i].site;
     const auto index = static_cast<std::size_t>(site);
     ContactState& contact = mode.contacts[index];
     SitePins& pins = mode.pins[index];
     const Face face = events.events[i].face;
+    // a contact that has ended takes its other events with it
+    if (contact.phase != segment.contacts[index].phase) continue;
     switch (events.events[i].kind) {
       case EventKind::touch:
         contact = {Phase::loaded, face, Slip::none};
@@ -218,16 +223,14 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
         if (system.regularization > 0.0) {
           zero_slip[index] = true;
         } else {
-          broken[index] = true;
-          held_force[index] = held_force_of(segment, site);
+          broken[index] = events.events[i].direction;
         }
         break;
       default:
         break;
     }
   }
-  // a contact that ends takes its other events with it
-  set_friction(system, state, drives_at_end, zero_slip, broken, held_force, mode);
+  set_friction(system, state, drives_at_end, zero_slip, broken, mode);
   for (int i = 0; i < events.count; ++i) {
     Event& event = events.events[i];
     if (event.kind == EventKind::slip_reversal && mode.contacts[static_cast<std::size_t>(event.site)].slip == Slip::stick)
@@ -237,7 +240,7 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
 }
 
 void decide_friction_anew(const System& system, const State& state, const DriveForms& drives, ContactMode& mode) {
-  set_friction(system, state, drives, {}, {}, {}, mode);
+  set_friction(system, state, drives, {}, {}, mode);
 }
 
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives) {
@@ -246,7 +249,7 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
   for (std::size_t i = 0; i < kSiteCount; ++i)
     if (system.recovery && mode.contacts[i].phase == Phase::unloaded)
       mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
-  set_friction(system, start, drives, {}, {}, {}, mode);
+  set_friction(system, start, drives, {}, {}, mode);
   return mode;
 }
 
