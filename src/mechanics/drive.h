@@ -7,6 +7,8 @@
 // The phase is kept modulo 2 pi from a reference instant in double-double arithmetic: no drift over 1e6 periods.
 #pragma once
 
+#include <cmath>
+
 #include "mechanics/instant.h"
 #include "model/scene.h"
 
@@ -18,6 +20,20 @@ struct DriveForm {
   double constant = 0.0, slope = 0.0;
   double amplitude = 0.0, frequency = 0.0, rate = 0.0;
   double sin_phase = 0.0, cos_phase = 1.0;
+
+  double at(double t) const {
+    double value = constant + slope * t;
+    if (amplitude != 0.0) {
+      const double angle = (frequency + 0.5 * rate * t) * t;
+      value += amplitude * (sin_phase * std::cos(angle) + cos_phase * std::sin(angle));
+    }
+    return value;
+  }
+};
+
+/// A force and a moment on the part, or sums of such.
+struct Load3 {
+  double x = 0.0, y = 0.0, phi = 0.0;
 };
 
 class Drive {

@@ -1,5 +1,6 @@
 #include "mechanics/free_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vibratory_alignment {
@@ -94,6 +95,45 @@ void FreeMotion::homogeneous(double t, double& c, double& s, double& c_rate, dou
   }
   c = s_rate + 2.0 * decay_ * s;
   c_rate = -axis_.stiffness / axis_.inertia * s;
+}
+
+FreeMotion::Bounds FreeMotion::bounds(double end) const {
+  Bounds b;
+  if (!axis_.moves) return b;
+  const double c = c_factor_, s = s_factor_;
+  const auto add = [&b](double amplitude, double rate) {
+    b.rate += amplitude * rate;
+    b.second += amplitude * rate * rate;
+    b.third += amplitude * rate * rate * rate;
+  };
+  if (square_ < 0.0) {
+    add(std::hypot(c, (s + decay_ * c) / root_), std::hypot(decay_, root_));
+  } else if (square_ > 0.0) {
+    // the two decaying exponentials
+    const double fast = decay_ + root_, slow = axis_.stiffness / axis_.inertia / fast;
+    add(std::abs(c * fast + s) / (2.0 * root_), slow);
+    add(std::abs(c * slow + s) / (2.0 * root_), fast);
+  } else {
+    // (c + g t) exp(-a t): derivative n is at most a^n |c| + a^(n-1) |g| (n + 1/e)
+    const double g = std::abs(s + decay_ * c);
+    add(std::abs(c), decay_);
+    b.rate += 1.37 * g;
+    b.second += 2.37 * g * decay_;
+    b.third += 3.37 * g * decay_ * decay_;
+  }
+  for (const Sine& sine : sines_) add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
+  const double p2 = std::abs(p2_), p3 = std::abs(p3_);
+  b.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
+  b.second += 2.0 * p2 + 6.0 * p3 * end;
+  b.third += 6.0 * p3;
+  return b;
+}
+
+double FreeMotion::rate() const {
+  if (!axis_.moves) return 0.0;
+  double fastest = square_ > 0.0 ? decay_ + root_ : std::hypot(decay_, root_);
+  for (const Sine& sine : sines_) fastest = std::max(fastest, sine.frequency);
+  return fastest;
 }
 
 void FreeMotion::at(double t, double& q, double& v) const {

@@ -24,6 +24,15 @@ class FreeMotion {
   void settle();
   bool exact() const { return exact_; }
 
+  /// Largest absolute values of q', q'', q''' between 0 and `end`.
+  struct Bounds {
+    double rate = 0.0, second = 0.0, third = 0.0;
+  };
+  Bounds bounds(double end) const;
+
+  /// Fastest rate of the motion, rad per unit of time.
+  double rate() const;
+
   /// Position and velocity at time t >= 0 after begin().
   void at(double t, double& q, double& v) const;
 

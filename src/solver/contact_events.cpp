@@ -63,7 +63,7 @@ class Search {
   }
 
   Vec2 start_point(Site site) const {
-    return site_point(system_, {segment_.x[0], segment_.y[0], segment_.phi[0], 0.0, 0.0, 0.0}, site);
+    return site_point(system_, segment_.begin, site);
   }
 
   /// Largest speeds and accelerations of the axes during the segment.

@@ -11,8 +11,12 @@ namespace vibratory_alignment {
 namespace {
 
 /// Flight: order of the series in which events are sought, and their truncation error relative to the motion.
-constexpr int kFlightOrder = 22;
+constexpr int kFlightOrder = 18;
 constexpr double kFlightTolerance = 1e-15;
+
+/// Leaps in flight, in radians of its fastest motion: shorter ones are left to the series, longer ones bound too loosely.
+constexpr double kShortestLeap = 0.3;
+constexpr double kLongestLeap = 20.0;
 
 /// Truncation error below which rounding is all that is left.
 constexpr double kSmallestTolerance = 1e-16;
@@ -59,7 +63,7 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
                          long step_limit)
     : system_(system), tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
       contact_order_(series_order(tolerance_)), step_limit_(step_limit),
-      series_(system_), free_x_(excitations.size()), free_y_(excitations.size()), free_phi_(excitations.size()) {
+      series_(system_), flight_(excitations.size()) {
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
   for (const Excitation& excitation : excitations) drives_.emplace_back(excitation, now_);
@@ -76,30 +80,12 @@ void EventSolver::fail(const std::string& reason) const {
   throw SolverFailure(message.str());
 }
 
-void EventSolver::begin_flight(const DriveForms& drives) {
-  flight_start_ = now_;
-  free_x_.begin(system_.x, state_.x, state_.vx, 0.0);
-  free_y_.begin(system_.y, state_.y, state_.vy, -system_.weight);
-  free_phi_.begin(system_.phi, state_.phi, state_.omega, 0.0);
-  for (int i = 0; i < drives.count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    FreeMotion& axis = drives.direction[index] == Direction::x   ? free_x_
-                       : drives.direction[index] == Direction::y ? free_y_
-                                                                 : free_phi_;
-    axis.add(drives.form[index]);
-  }
-  for (FreeMotion* axis : {&free_x_, &free_y_, &free_phi_}) axis->settle();
-  in_flight_ = true;
-}
-
 /// State in flight at `duration` after the segment's start: closed form from the start of the flight, or the series
 /// where that is more exact.
 State EventSolver::flight_state(double duration) const {
-  State state = state_at(segment_, duration);
-  const double t = (segment_.start - flight_start_) + duration;
-  if (free_x_.exact()) free_x_.at(t, state.x, state.vx);
-  if (free_y_.exact()) free_y_.at(t, state.y, state.vy);
-  if (free_phi_.exact()) free_phi_.at(t, state.phi, state.omega);
+  State state;
+  if (!flight_.exact()) state = state_at(segment_, duration);
+  flight_.at(segment_.flight_time + duration, state);
   return state;
 }
 
@@ -139,6 +125,23 @@ void EventSolver::go_to_end() {
   }
 }
 
+/// Passes over the part of a flight in which nothing can happen, in one segment without series. False when that is too
+/// short to be worth it.
+bool EventSolver::leap(double longest) {
+  if (!flight_.exact()) return false;
+  for (const Recovery& recovery : mode_.recoveries)
+    if (recovery.deformation > 0.0) return false;
+  const double most = std::min(longest, kLongestLeap / flight_.rate());
+  const double time = flight_.free_time(system_, segment_.flight_time, state_, mode_.contacts, mode_.pins, outcomes_, most);
+  if (time < longest && time * flight_.rate() < kShortestLeap) return false;
+  segment_.flight = &flight_;
+  segment_.order = 0;
+  segment_.loaded_count = 0;
+  segment_.duration = time;
+  ++counts_.rhs_evaluations;
+  return true;
+}
+
 const Segment& EventSolver::advance(double limit) {
   if (started_) {
     go_to_end();
@@ -148,39 +151,49 @@ const Segment& EventSolver::advance(double limit) {
   }
   if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
 
-  // the motion from here on as power series
   const DriveForms drives = forms_at(drives_, now_);
-  const bool contact = any_loaded(mode_.contacts);
+  const double to_limit = std::max(0.0, limit - now_);
+  const double to_kink = time_to_kink(drives_, now_);
   segment_.start = now_;
   segment_.contacts = mode_.contacts;
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     segment_.contacts[i].base_deformation = mode_.recoveries[i].deformation;
     segment_.contacts[i].recovery_rate = mode_.recoveries[i].rate;
   }
-  double step = 0.0;
+  const bool contact = any_loaded(mode_.contacts);
+  if (contact) state_ = hold_sticking(system_, state_, mode_.contacts);
+  segment_.begin = state_;
+  segment_.flight = nullptr;
   if (contact) {
     in_flight_ = false;
-    state_ = hold_sticking(system_, state_, mode_.contacts);
-    series_.expand_contact(state_, drives, contact_order_, segment_);
-    step = std::min(series_step(segment_, tolerance_), tanh_layer_step());
   } else {
-    if (!in_flight_) begin_flight(drives);
-    series_.expand_free(state_, drives, kFlightOrder, segment_);
-    step = series_step(segment_, kFlightTolerance);
+    if (!in_flight_) flight_.begin(system_, state_, drives, now_);
+    in_flight_ = true;
+    segment_.flight_time = now_ - flight_.start();
   }
-  if (!is_finite(segment_)) fail("the motion is no longer finite");
-  step = limit_turn(segment_, contact ? tolerance_ : kFlightTolerance, step);
-  counts_.rhs_evaluations += segment_.order;
-  for (const Recovery& recovery : mode_.recoveries)
-    if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
 
-  // it lasts to the first of: end of the step, limit, kink of an excitation, event
-  const double to_limit = std::max(0.0, limit - now_);
-  const double to_kink = time_to_kink(drives_, now_);
-  segment_.duration = std::min({step, to_limit, to_kink});
-  if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
-  FoundEvents found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
-  if (found.count > 0) segment_.duration = found.time;
+  FoundEvents found;
+  const double end = std::min(to_limit, to_kink);
+  if (contact || !leap(end)) {
+    // power series, to the first of: end of the step, limit, kink of an excitation, event
+    double step = 0.0;
+    if (contact) {
+      series_.expand_contact(state_, drives, contact_order_, segment_);
+      step = std::min(series_step(segment_, tolerance_), tanh_layer_step());
+    } else {
+      series_.expand_free(state_, drives, kFlightOrder, segment_);
+      step = series_step(segment_, kFlightTolerance);
+    }
+    if (!is_finite(segment_)) fail("the motion is no longer finite");
+    step = limit_turn(segment_, contact ? tolerance_ : kFlightTolerance, step);
+    counts_.rhs_evaluations += segment_.order;
+    for (const Recovery& recovery : mode_.recoveries)
+      if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
+    segment_.duration = std::min(step, end);
+    if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
+    found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
+    if (found.count > 0) segment_.duration = found.time;
+  }
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
     fail("the step has become too short");
@@ -248,6 +261,11 @@ std::unique_ptr<Solver> make_solver(const System& system, const std::vector<Exci
 }
 
 State state_at(const Segment& segment, double t) {
+  if (segment.flight != nullptr) {
+    State state;
+    segment.flight->at(segment.flight_time + t, state);
+    return state;
+  }
   const int order = segment.order;
   return {value_at(segment.x, order, t),  value_at(segment.y, order, t),  value_at(segment.phi, order, t),
           value_at(segment.vx, order, t), value_at(segment.vy, order, t), value_at(segment.omega, order, t)};

@@ -2,7 +2,7 @@
 // under error control, every event located to roundoff as a root of the series.
 #pragma once
 
-#include "mechanics/free_motion.h"
+#include "solver/flight.h"
 #include "solver/solver.h"
 #include "solver/transitions.h"
 
@@ -20,7 +20,7 @@ class EventSolver final : public Solver {
   const SolverCounts& counts() const override { return counts_; }
 
  private:
-  void begin_flight(const DriveForms& drives);
+  bool leap(double longest);
   State flight_state(double duration) const;
   double tanh_layer_step() const;
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
@@ -44,9 +44,8 @@ class EventSolver final : public Solver {
   MotionSeries series_;
   Segment segment_;
 
-  bool in_flight_ = false;      ///< the closed forms below are those of the present flight
-  Instant flight_start_;
-  FreeMotion free_x_, free_y_, free_phi_;
+  bool in_flight_ = false;      ///< flight_ is the present one
+  Flight flight_;
 
   int events_without_progress_ = 0;
   SolverCounts counts_;

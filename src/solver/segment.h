@@ -1,4 +1,4 @@
-// A segment: one smooth piece of the motion, as power series in the time since its start.
+// A segment: one smooth piece of the motion, as power series in the time since its start or, in flight, in closed form.
 // Every solver produces segments; everything that looks at a motion (samples, peaks, energy, outcomes) reads them.
 #pragma once
 
@@ -45,10 +45,15 @@ struct ContactSeries {
   Series slip_velocity{};     ///< V
 };
 
+class Flight;
+
 struct Segment {
   Instant start;
+  State begin;                           ///< the state at its start
   double duration = 0.0;
   int order = 0;                         ///< highest power that the series hold
+  const Flight* flight = nullptr;        ///< set: a leap in flight, in closed form instead of series (x ... drive_phi unused)
+  double flight_time = 0.0;              ///< time from the start of the flight to the start of the segment
   Series x{}, y{}, phi{};                ///< positions
   Series vx{}, vy{}, omega{};            ///< velocities
   Series cos_phi{}, sin_phi{};

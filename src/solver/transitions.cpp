@@ -25,12 +25,8 @@ struct LoadedContact {
 };
 
 /// Force sums of the excitations at the instant of the decision.
-struct DriveLoad {
-  double x = 0.0, y = 0.0, phi = 0.0;
-};
-
-DriveLoad drive_load(const DriveForms& drives) {
-  DriveLoad load;
+Load3 drive_load(const DriveForms& drives) {
+  Load3 load;
   for (int i = 0; i < drives.count; ++i) {
     const DriveForm& form = drives.form[i];
     const double value = form.constant + form.amplitude * form.sin_phase;
@@ -65,7 +61,7 @@ void decide_friction(const System& system, const State& state, const DriveForms&
   if (problem.count == 0) return;
 
   // acceleration without the forces sought
-  const DriveLoad drive = drive_load(drives);
+  const Load3 drive = drive_load(drives);
   double fx = drive.x - system.x.damping * state.vx - system.x.stiffness * (state.x - system.x.anchor);
   double fy = drive.y - system.y.damping * state.vy - system.y.stiffness * (state.y - system.y.anchor) - system.weight;
   double m = drive.phi - system.phi.damping * state.omega - system.phi.stiffness * (state.phi - system.phi.anchor);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
+#include "solver/flight.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -27,25 +28,18 @@ double EnergyAccount::mechanical(const State& s) const {
 }
 
 void EnergyAccount::book(const Segment& segment) {
-  const State start{segment.x[0], segment.y[0], segment.phi[0], segment.vx[0], segment.vy[0], segment.omega[0]};
   const bool first = !started_;
   started_ = true;
-  if (first) ledger_.initial = mechanical(start);
+  if (first) ledger_.initial = mechanical(segment.begin);
 
   const int order = segment.order;
   const double h = segment.duration;
-  ledger_.excitation_work += integral_of_product(segment.drive_x, segment.vx, order, h) +
-                             integral_of_product(segment.drive_y, segment.vy, order, h) +
-                             integral_of_product(segment.drive_phi, segment.omega, order, h);
-  const auto axis_loss = [&](const Axis& axis, const Series& v) {
-    return axis.moves && axis.damping > 0.0 ? axis.damping * integral_of_product(v, v, order, h) : 0.0;
-  };
-  ledger_.gripper_loss +=
-      axis_loss(system_.x, segment.vx) + axis_loss(system_.y, segment.vy) + axis_loss(system_.phi, segment.omega);
+  if (segment.flight != nullptr) book_leap(segment);
+  else book_series(segment);
 
   // base springs: what jumps between two segments has been dropped (or brought back)
   std::array<double, kSiteCount> at_start{}, at_end{};
-  const double c0 = segment.cos_phi[0], s0 = segment.sin_phi[0];
+  const double c0 = std::cos(segment.begin.phi), s0 = std::sin(segment.begin.phi);
   const double c1 = std::cos(segment.end.phi), s1 = std::sin(segment.end.phi);
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
@@ -74,6 +68,41 @@ void EnergyAccount::book(const Segment& segment) {
   }
   book_contacts(segment);
   ledger_.final = mechanical(segment.end) + base_total;
+}
+
+/// Work and losses in the gripper during a segment given by its series.
+void EnergyAccount::book_series(const Segment& segment) {
+  const int order = segment.order;
+  const double h = segment.duration;
+  ledger_.excitation_work += integral_of_product(segment.drive_x, segment.vx, order, h) +
+                             integral_of_product(segment.drive_y, segment.vy, order, h) +
+                             integral_of_product(segment.drive_phi, segment.omega, order, h);
+  const auto axis_loss = [&](const Axis& axis, const Series& v) {
+    return axis.moves && axis.damping > 0.0 ? axis.damping * integral_of_product(v, v, order, h) : 0.0;
+  };
+  ledger_.gripper_loss +=
+      axis_loss(system_.x, segment.vx) + axis_loss(system_.y, segment.vy) + axis_loss(system_.phi, segment.omega);
+}
+
+/// The same in closed form: Gauss-Legendre quadrature of eight points on panels of at most one radian.
+void EnergyAccount::book_leap(const Segment& segment) {
+  static constexpr double kNodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+  static constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+  const Flight& flight = *segment.flight;
+  const int panels = 1 + static_cast<int>(segment.duration * flight.rate());
+  const double half = 0.5 * segment.duration / panels;
+  State state;
+  for (int panel = 0; panel < panels; ++panel) {
+    for (int i = 0; i < 8; ++i) {
+      const double node = i < 4 ? -kNodes[i] : kNodes[i - 4], weight = half * kWeights[i % 4];
+      const double t = segment.flight_time + half * (2 * panel + 1 + node);
+      flight.at(t, state);
+      const Load3 drive = flight.drive_at(t);
+      ledger_.excitation_work += weight * (drive.x * state.vx + drive.y * state.vy + drive.phi * state.omega);
+      ledger_.gripper_loss += weight * (system_.x.damping * state.vx * state.vx + system_.y.damping * state.vy * state.vy +
+                                        system_.phi.damping * state.omega * state.omega);
+    }
+  }
 }
 
 void EnergyAccount::book_contacts(const Segment& segment) {

@@ -20,6 +20,8 @@ class EnergyAccount {
 
  private:
   double mechanical(const State& state) const;
+  void book_series(const Segment& segment);
+  void book_leap(const Segment& segment);
   void book_contacts(const Segment& segment);
 
   System system_;

@@ -1,0 +1,43 @@
+// A flight: the part moves freely, in closed form, from release to the next touch.
+//
+// Most of a flight is far from everything. How far it can be passed over in one leap without missing a touch follows from
+// bounds on third derivatives that hold for the whole flight (docs/hybrid_step.md "Leaps").
+#pragma once
+
+#include "mechanics/free_motion.h"
+#include "solver/contact_events.h"
+
+namespace vibratory_alignment {
+
+class Flight {
+ public:
+  explicit Flight(std::size_t drive_count) : x_(drive_count), y_(drive_count), phi_(drive_count) {}
+
+  void begin(const System& system, const State& state, const DriveForms& drives, const Instant& now);
+
+  const Instant& start() const { return start_; }
+  /// True where the closed form holds to roundoff in every coordinate.
+  bool exact() const { return x_.exact() && y_.exact() && phi_.exact(); }
+
+  /// State at time t since the start of the flight. Coordinates without exact closed form are left as they are in `state`.
+  void at(double t, State& state) const;
+
+  /// Forces of the excitations at time t since the start of the flight.
+  Load3 drive_at(double t) const;
+
+  /// Fastest rate in the motion, rad per unit of time.
+  double rate() const { return rate_; }
+
+  /// Time from t (since the start) during which no site that is outside can touch and no outcome can occur; at most
+  /// `longest`. `state` is the state at t.
+  double free_time(const System& system, double t, const State& state, const ContactStates& contacts, const Pins& pins,
+                   const OutcomeGuards& outcomes, double longest) const;
+
+ private:
+  Instant start_;
+  FreeMotion x_, y_, phi_;
+  DriveForms drives_;
+  double rate_ = 1.0;
+};
+
+}  // namespace vibratory_alignment
