@@ -185,11 +185,13 @@ const Segment& EventSolver::advance(double limit) {
       step = series_step(segment_, kFlightTolerance);
     }
     if (!is_finite(segment_)) fail("the motion is no longer finite");
-    step = limit_turn(segment_, contact ? tolerance_ : kFlightTolerance, step);
+    step = std::min(step, end);
+    step = contact ? limit_turn(segment_, tolerance_, step, 0.0)
+                   : limit_turn(segment_, kFlightTolerance, step, flight_.rate());
     counts_.rhs_evaluations += segment_.order;
     for (const Recovery& recovery : mode_.recoveries)
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
-    segment_.duration = std::min(step, end);
+    segment_.duration = step;
     if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
     found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
     if (found.count > 0) segment_.duration = found.time;

@@ -43,12 +43,12 @@ double series_step(const Segment& segment, double tolerance) {
   return std::exp2(shortest);
 }
 
-double limit_turn(const Segment& segment, double tolerance, double step) {
+double limit_turn(const Segment& segment, double tolerance, double step, double rate) {
   if (segment.omega[0] == 0.0 && segment.omega[1] == 0.0 && segment.omega[2] == 0.0) return step;
   // remainder of the series for a turn alpha: alpha^n / n!, n = order + 1
   const int n = segment.order + 1;
   const double allowed = std::exp((std::log(tolerance) + std::lgamma(n + 1.0)) / n);
-  double turn = 0.0, power = 1.0;
+  double turn = rate * step, power = 1.0;
   for (int k = 1; k <= segment.order; ++k) {
     power *= step;
     turn += std::abs(segment.phi[k]) * power;
