@@ -8,11 +8,25 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Integral of a b over the first `h` of the segment.
-double integral_of_product(const Series& a, const Series& b, int order, double h) {
-  Series product{};
-  for (int k = 0; k <= order; ++k) product[k] = product_term(a, b, k);
-  return integral(product, order, 0.0, h);
+/// Gauss-Legendre quadrature of twelve points on [-1, 1]: the nodes > 0.
+constexpr double kNodes[6] = {0.1252334085114689, 0.3678314989981802, 0.5873179542866175,
+                              0.7699026741943047, 0.9041172563704749, 0.9815606342467193};
+constexpr double kWeights[6] = {0.2491470458134028, 0.2334925365383548, 0.2031674267230659,
+                                0.1600783285433462, 0.1069393259953184, 0.0471753363865118};
+
+/// Longest panel in radians of the flight's fastest motion: the products turn twice as fast. A series' step is one panel.
+constexpr double kPanel = 2.0;
+
+Load3 drive_at(const Segment& segment, double t) {
+  if (segment.flight != nullptr) return segment.flight->drive_at(segment.flight_time + t);
+  const int order = segment.order;
+  return {value_at(segment.drive_x, order, t), value_at(segment.drive_y, order, t), value_at(segment.drive_phi, order, t)};
+}
+
+double slope_at(const Series& series, int order, double t) {
+  double slope = order * series[order];
+  for (int k = order - 1; k >= 1; --k) slope = slope * t + k * series[k];
+  return slope;
 }
 
 }  // namespace
@@ -32,10 +46,13 @@ void EnergyAccount::book(const Segment& segment) {
   started_ = true;
   if (first) ledger_.initial = mechanical(segment.begin);
 
-  const int order = segment.order;
-  const double h = segment.duration;
-  if (segment.flight != nullptr) book_leap(segment);
-  else book_series(segment);
+  const int panels = segment.flight ? 1 + static_cast<int>(segment.duration * segment.flight->rate() / kPanel) : 1;
+  const double half = 0.5 * segment.duration / panels;
+  for (int panel = 0; panel < panels; ++panel)
+    for (int i = 0; i < 12; ++i) {
+      const double node = i < 6 ? -kNodes[i] : kNodes[i - 6];
+      book_powers(segment, half * (2 * panel + 1 + node), half * kWeights[i % 6]);
+    }
 
   // base springs: what jumps between two segments has been dropped (or brought back)
   std::array<double, kSiteCount> at_start{}, at_end{};
@@ -45,7 +62,7 @@ void EnergyAccount::book(const Segment& segment) {
     const ContactSeries& contact = segment.loaded[i];
     const auto site = static_cast<std::size_t>(contact.site);
     const Face face = segment.contacts[site].face;
-    const double end_depth = value_at(contact.depth, order, h);
+    const double end_depth = value_at(contact.depth, segment.order, segment.duration);
     base_stiffness_[site] = stiffness_of(system_, face, c1, s1);
     at_start[site] = 0.5 * stiffness_of(system_, face, c0, s0) * contact.depth[0] * contact.depth[0];
     at_end[site] = 0.5 * base_stiffness_[site] * end_depth * end_depth;
@@ -54,7 +71,7 @@ void EnergyAccount::book(const Segment& segment) {
     const ContactState& contact = segment.contacts[site];
     if (contact.phase == Phase::loaded || contact.base_deformation == 0.0) continue;
     // a base that recovers gives its energy to its own damper
-    const double left = contact.base_deformation * std::exp(-contact.recovery_rate * h);
+    const double left = contact.base_deformation * std::exp(-contact.recovery_rate * segment.duration);
     at_start[site] = 0.5 * base_stiffness_[site] * contact.base_deformation * contact.base_deformation;
     at_end[site] = 0.5 * base_stiffness_[site] * left * left;
     ledger_.base_loss += at_start[site] - at_end[site];
@@ -66,74 +83,31 @@ void EnergyAccount::book(const Segment& segment) {
     base_energy_[site] = at_end[site];
     base_total += at_end[site];
   }
-  book_contacts(segment);
   ledger_.final = mechanical(segment.end) + base_total;
 }
 
-/// Work and losses in the gripper during a segment given by its series.
-void EnergyAccount::book_series(const Segment& segment) {
+/// All powers at time t of the segment, times `weight`.
+void EnergyAccount::book_powers(const Segment& segment, double t, double weight) {
+  const State s = state_at(segment, t);
+  const Load3 drive = drive_at(segment, t);
+  ledger_.excitation_work += weight * (drive.x * s.vx + drive.y * s.vy + drive.phi * s.omega);
+  ledger_.gripper_loss += weight * (system_.x.damping * s.vx * s.vx + system_.y.damping * s.vy * s.vy +
+                                    system_.phi.damping * s.omega * s.omega);
+  if (segment.loaded_count == 0) return;
+  const double sin_phi = std::sin(s.phi), cos_phi = std::cos(s.phi);
   const int order = segment.order;
-  const double h = segment.duration;
-  ledger_.excitation_work += integral_of_product(segment.drive_x, segment.vx, order, h) +
-                             integral_of_product(segment.drive_y, segment.vy, order, h) +
-                             integral_of_product(segment.drive_phi, segment.omega, order, h);
-  const auto axis_loss = [&](const Axis& axis, const Series& v) {
-    return axis.moves && axis.damping > 0.0 ? axis.damping * integral_of_product(v, v, order, h) : 0.0;
-  };
-  ledger_.gripper_loss +=
-      axis_loss(system_.x, segment.vx) + axis_loss(system_.y, segment.vy) + axis_loss(system_.phi, segment.omega);
-}
-
-/// The same in closed form: Gauss-Legendre quadrature of eight points on panels of at most one radian.
-void EnergyAccount::book_leap(const Segment& segment) {
-  static constexpr double kNodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-  static constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
-  const Flight& flight = *segment.flight;
-  const int panels = 1 + static_cast<int>(segment.duration * flight.rate());
-  const double half = 0.5 * segment.duration / panels;
-  State state;
-  for (int panel = 0; panel < panels; ++panel) {
-    for (int i = 0; i < 8; ++i) {
-      const double node = i < 4 ? -kNodes[i] : kNodes[i - 4], weight = half * kWeights[i % 4];
-      const double t = segment.flight_time + half * (2 * panel + 1 + node);
-      flight.at(t, state);
-      const Load3 drive = flight.drive_at(t);
-      ledger_.excitation_work += weight * (drive.x * state.vx + drive.y * state.vy + drive.phi * state.omega);
-      ledger_.gripper_loss += weight * (system_.x.damping * state.vx * state.vx + system_.y.damping * state.vy * state.vy +
-                                        system_.phi.damping * state.omega * state.omega);
-    }
-  }
-}
-
-void EnergyAccount::book_contacts(const Segment& segment) {
-  const int order = segment.order;
-  const double h = segment.duration;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
-    Series rate{};
-    for (int k = 0; k <= order; ++k) rate[k] = (k + 1) * contact.depth[k + 1];
-    ledger_.friction_loss -= integral_of_product(contact.tangential_force, contact.slip_velocity, order, h);
-    if (!is_part_face(face) || system_.isotropic) {
-      const double damping = damping_of(system_, face, segment.cos_phi[0], segment.sin_phi[0]);
-      if (damping > 0.0) ledger_.base_loss += damping * integral_of_product(rate, rate, order, h);
-      continue;
-    }
-    // turning normal: h(n) d'^2 is lost, 1/2 k(n)' d^2 gained; k(n) and h(n) follow cos^2 phi
+    const double rate = slope_at(contact.depth, order, t);
+    ledger_.base_loss += weight * damping_of(system_, face, cos_phi, sin_phi) * rate * rate;
+    ledger_.friction_loss -= weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
+    if (!is_part_face(face) || system_.isotropic) continue;
+    // the normal turns: 1/2 (dk/dphi) phi' d^2, where k = C1 cos^2 + C2 sin^2 on the bottom, the other way round on sides
+    const double depth = value_at(contact.depth, order, t);
     const double sign = face == Face::bottom ? 1.0 : -1.0;
-    Series damping{}, turning{}, depth2{}, rate2{};
-    for (int k = 0; k <= order; ++k) {
-      const double square = product_term(segment.cos_phi, segment.cos_phi, k);
-      const double fixed = k > 0 ? 0.0 : face == Face::bottom ? system_.damping_x : system_.damping_y;
-      damping[k] = sign * (system_.damping_y - system_.damping_x) * square + fixed;
-      turning[k] = sign * (system_.stiffness_y - system_.stiffness_x) * square;
-      depth2[k] = product_term(contact.depth, contact.depth, k);
-      rate2[k] = product_term(rate, rate, k);
-    }
-    for (int k = 0; k < order; ++k) turning[k] = 0.5 * (k + 1) * turning[k + 1];
-    turning[order] = 0.0;
-    ledger_.base_loss += integral_of_product(damping, rate2, order, h);
-    ledger_.turning += integral_of_product(turning, depth2, order, h);
+    const double slope = 2.0 * sign * (system_.stiffness_x - system_.stiffness_y) * sin_phi * cos_phi;
+    ledger_.turning += weight * 0.5 * slope * s.omega * depth * depth;
   }
 }
 

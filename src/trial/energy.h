@@ -1,4 +1,4 @@
-// Energy ledger of a trial (MODEL.md "Energy ledger"), integrated from the segments' series: an account of its own that
+// Energy ledger of a trial (MODEL.md "Energy ledger"), integrated over the segments by quadrature: an account of its own that
 // does not use the equations of motion, so that its residual judges them.
 #pragma once
 
@@ -20,9 +20,7 @@ class EnergyAccount {
 
  private:
   double mechanical(const State& state) const;
-  void book_series(const Segment& segment);
-  void book_leap(const Segment& segment);
-  void book_contacts(const Segment& segment);
+  void book_powers(const Segment& segment, double t, double weight);
 
   System system_;
   EnergyLedger ledger_;
