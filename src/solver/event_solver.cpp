@@ -185,9 +185,11 @@ const Segment& EventSolver::advance(double limit) {
       step = series_step(segment_, kFlightTolerance);
     }
     if (!is_finite(segment_)) fail("the motion is no longer finite");
-    step = std::min(step, end);
-    step = contact ? limit_turn(segment_, tolerance_, step, 0.0)
-                   : limit_turn(segment_, kFlightTolerance, step, flight_.rate());
+    // the series of the points turn with the part; those of the other edge and the corners follow from these
+    const double point_tolerance = contact ? tolerance_ : kFlightTolerance;
+    step = std::min({step, end, pair_step(series_.direction(segment_), segment_.order, point_tolerance)});
+    if (!contact && system_.contacts.edges)
+      step = std::min(step, pair_step(series_.point(Site::a1, segment_), segment_.order, point_tolerance));
     counts_.rhs_evaluations += segment_.order;
     for (const Recovery& recovery : mode_.recoveries)
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);

@@ -122,10 +122,15 @@ void MotionSeries::point_term(Site site, int k, const Segment& segment) {
 }
 
 const PairSeries& MotionSeries::point(Site site, Segment& segment) {
-  while (known_trig_ < order_) trig_term(++known_trig_, segment);
+  direction(segment);
   const int index = point_index(site);
   while (known_point_[index] < order_) point_term(kPointSites[index], known_point_[index] + 1, segment);
   return points_[index];
+}
+
+const PairSeries& MotionSeries::direction(Segment& segment) {
+  while (known_trig_ < order_) trig_term(++known_trig_, segment);
+  return direction_;
 }
 
 void MotionSeries::set_up_contacts(Segment& segment) {

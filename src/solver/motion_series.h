@@ -31,6 +31,9 @@ class MotionSeries {
   /// Coordinates of a site's point (body coordinates of an edge, position of a corner), made on the first call.
   const PairSeries& point(Site site, Segment& segment);
 
+  /// (cos phi, sin phi), made on the first call.
+  const PairSeries& direction(Segment& segment);
+
   /// k d + h d' of a contact on `face` with depth series d, to power order - 1 (trigonometric series must be known:
   /// call point() first).
   void push_series(const Segment& segment, Face face, const Series& depth, Series& push) const;

@@ -43,17 +43,14 @@ double series_step(const Segment& segment, double tolerance) {
   return std::exp2(shortest);
 }
 
-double limit_turn(const Segment& segment, double tolerance, double step, double rate) {
-  if (segment.omega[0] == 0.0 && segment.omega[1] == 0.0 && segment.omega[2] == 0.0) return step;
-  // remainder of the series for a turn alpha: alpha^n / n!, n = order + 1
-  const int n = segment.order + 1;
-  const double allowed = std::exp((std::log(tolerance) + std::lgamma(n + 1.0)) / n);
-  double turn = rate * step, power = 1.0;
-  for (int k = 1; k <= segment.order; ++k) {
-    power *= step;
-    turn += std::abs(segment.phi[k]) * power;
+double pair_step(const PairSeries& series, int order, double tolerance) {
+  const double log2_tolerance = rough_log2(tolerance);
+  double shortest = kInfinity;
+  for (int k = order - 1; k <= order; ++k) {
+    const double term = std::max(std::abs(series[k][0]), std::abs(series[k][1]));
+    if (term > 0.0) shortest = std::min(shortest, (log2_tolerance - rough_log2(term)) / k);
   }
-  return turn > allowed ? step * allowed / turn : step;
+  return std::exp2(shortest);
 }
 
 int series_order(double tolerance) {

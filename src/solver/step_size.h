@@ -10,10 +10,8 @@ namespace vibratory_alignment {
 /// Infinity for an axis at rest.
 double series_step(const Segment& segment, double tolerance);
 
-/// The part of `step` (finite) in which the tilt changes so little that the series of cos phi and sin phi, cut off at the
-/// segment's order, are exact to `tolerance`; so are their products with a translation of the given `rate`, rad per unit
-/// of time.
-double limit_turn(const Segment& segment, double tolerance, double step, double rate);
+/// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
+double pair_step(const PairSeries& series, int order, double tolerance);
 
 /// Order of the series for a tolerance: each further order costs its share, each further digit is worth so many.
 int series_order(double tolerance);
