@@ -24,7 +24,7 @@ double common_period(const std::vector<Excitation>& excitations) {
   double first = 0.0;
   for (const Excitation& e : excitations)
     if (e.amplitude != 0.0 && first == 0.0) first = final_frequency(e);
-  if (first == 0.0) return kTwoPi;
+  if (first == 0.0) return kTwoPi / 16.0;
   for (int multiple = 1; multiple <= kMostMultiples; ++multiple) {
     const bool fits = std::all_of(excitations.begin(), excitations.end(), [&](const Excitation& e) {
       if (e.amplitude == 0.0) return true;

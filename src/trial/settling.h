@@ -44,8 +44,8 @@ class SettlingWatch {
   bool settled_ = false;
 };
 
-/// Common period of all excitations with an amplitude; that of the free gripper (2 pi) when there are none; 0 when their
-/// frequencies have no common measure or still change.
+/// Common period of all excitations with an amplitude; without any, a sixteenth of the gripper's own period 2 pi (a motion
+/// without excitation that repeats itself after any time does so for ever); 0 when the frequencies have no common measure.
 double common_period(const std::vector<Excitation>& excitations);
 
 /// Period of the slowest excitation.
