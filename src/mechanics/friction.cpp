@@ -61,6 +61,7 @@ double violation(const FrictionProblem& problem, const Choice& choice, FrictionS
 
 void solve_mobility(const std::array<std::array<double, kSiteCount>, kSiteCount>& mobility, int count,
                     const std::array<double, kSiteCount>& rhs, std::array<double, kSiteCount>& force) {
+  if (count == 0) return;
   if (count == 1) {
     force[0] = rhs[0] / mobility[0][0];
     return;

@@ -12,13 +12,19 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+/// Sides have no upper end; a touch farther up them than this many sizes of the part is none that a scene means.
+constexpr double kFarthestTouch = 100.0;
+
+/// Moment left over in an equilibrium, relative to those that balance.
+constexpr double kBalanced = 1e-6;
+
 /// y at which the edge at distance rx from C (along x) lies on the lower boundary of the part.
 std::optional<double> edge_touch(const System& system, double rx, double phi) {
   const double a = system.half_width, b = system.base_distance;
   const double c = std::cos(phi), s = std::sin(phi);
   std::optional<double> highest;
   const auto offer = [&](double y) {
-    if (std::isfinite(y) && (!highest || y > *highest)) highest = y;
+    if (std::abs(y) <= kFarthestTouch * (a + b) && (!highest || y > *highest)) highest = y;
   };
   const double slack = 1e-12 * (a + b);
   // w = ry c - rx s = -b on the bottom, if |u| <= a; faces up where c > 0
@@ -33,6 +39,11 @@ std::optional<double> edge_touch(const System& system, double rx, double phi) {
     if (ry * c - rx * s >= -b - slack) offer(-ry);
   }
   return highest;
+}
+
+double moment_scale(const System& system, double phi) {
+  return std::abs(system.phi.stiffness * (phi - system.phi.anchor)) +
+         (std::abs(system.weight) + std::abs(system.start.y - system.y.anchor)) * system.slot_half_width;
 }
 
 /// Root of a function on [low, high] whose ends differ in sign, to roundoff (bisection).
@@ -154,7 +165,9 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
     }
   }
   system.start.phi = first == 0.0 ? begin : bisect(moment, low, high);
-  return settle_height(system.start.phi, system.start.y);
+  if (!settle_height(system.start.phi, system.start.y)) return false;
+  // where the touching point changes the moment jumps, and its change of sign is no equilibrium
+  return std::abs(moment(system.start.phi)) <= kBalanced * moment_scale(system, system.start.phi);
 }
 
 }  // namespace vibratory_alignment

@@ -112,6 +112,7 @@ struct SolverSettings {
 
 struct Scene {
   std::string name;
+  std::string source;            ///< file or parameter namespace that it was read from, for messages
   Units units = Units::dimensionless;
   std::optional<Scales> scales;  ///< always set for si scenes; absent in a dimensionless scene: no SI output
   Part part;

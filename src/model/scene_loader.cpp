@@ -349,6 +349,7 @@ Scene load_scene(const YAML::Node& tree, const std::string& source) {
   TreeReader::Faults faults;
   Scene scene = SceneReader(tree, faults).read();
   if (!faults.empty()) throw SceneError(source, faults);
+  scene.source = source;
   if (scene.name.empty()) scene.name = std::filesystem::path(source).stem().string();
   return scene;
 }
