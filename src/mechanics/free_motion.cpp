@@ -56,6 +56,7 @@ void FreeMotion::settle() {
     p2_ = 0.5 * slope_ / h;
     p1_ = (constant_ - 2.0 * m * p2_) / h;
     if ((constant_ != 0.0 || slope_ != 0.0) && decay_ < 1.0 / kLargestGain) exact_ = false;
+    if (std::abs(p1_) > kLargestGain) exact_ = false;
   } else {
     p2_ = 0.5 * constant_ / m;
     p3_ = slope_ / (6.0 * m);

@@ -14,7 +14,8 @@ constexpr double kRoundoff = 1e-12;
 
 using Choice = std::array<Slip, kSiteCount>;
 
-/// How far a choice of stick and slip is from fulfilling the conditions, relative; 0 when it does.
+/// How far a choice of stick and slip is from fulfilling the conditions, in accelerations relative to what they are made
+/// of; 0 when it does, infinite when nothing can hold a sticking contact.
 double violation(const FrictionProblem& problem, const Choice& choice, FrictionSolution& solution) {
   std::array<int, kSiteCount> sticking{};
   int stick_count = 0;
@@ -37,22 +38,24 @@ double violation(const FrictionProblem& problem, const Choice& choice, FrictionS
     for (int n = 0; n < stick_count; ++n) mobility[m][n] = problem.mobility[i][sticking[n]];
   }
   solve_mobility(mobility, stick_count, rhs, force);
-  double worst = 0.0;
   for (int m = 0; m < stick_count; ++m) {
-    const int i = sticking[m];
-    solution.force[i] = force[m];
-    if (!std::isfinite(force[m])) return INFINITY;  // nothing can hold this contact
-    worst = std::max(worst, (std::abs(force[m]) - problem.limit[i]) / (std::abs(force[m]) + problem.limit[i] + 1e-300));
+    solution.force[sticking[m]] = force[m];
+    if (!std::isfinite(force[m])) return INFINITY;
   }
-  // directions of those that slip
+  double worst = 0.0;
   for (int i = 0; i < problem.count; ++i) {
-    if (choice[i] == Slip::stick) continue;
-    double acceleration = problem.drift[i], scale = std::abs(problem.drift[i]) + 1e-300;
+    double acceleration = problem.drift[i], scale = problem.drift_scale[i] + 1e-300;
     for (int j = 0; j < problem.count; ++j) {
       acceleration += problem.mobility[i][j] * solution.force[j];
-      scale += std::abs(problem.mobility[i][j] * solution.force[j]);
+      scale += std::abs(problem.mobility[i][j]) * (std::abs(solution.force[j]) + problem.limit[j]);
     }
-    worst = std::max(worst, (choice[i] == Slip::plus ? -acceleration : acceleration) / scale);
+    if (choice[i] == Slip::stick) {
+      // holds, and with a force within its limit
+      const double excess = problem.mobility[i][i] * (std::abs(solution.force[i]) - problem.limit[i]);
+      worst = std::max({worst, std::abs(acceleration) / scale, excess / scale});
+    } else {
+      worst = std::max(worst, (choice[i] == Slip::plus ? -acceleration : acceleration) / scale);
+    }
   }
   return worst;
 }

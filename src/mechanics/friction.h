@@ -17,6 +17,7 @@ struct FrictionProblem {
   int count = 0;
   std::array<std::array<double, kSiteCount>, kSiteCount> mobility{};  ///< G
   std::array<double, kSiteCount> drift{};                             ///< g
+  std::array<double, kSiteCount> drift_scale{};                       ///< size of the terms that g is the sum of
   std::array<double, kSiteCount> limit{};                             ///< f N, >= 0
 };
 

@@ -59,7 +59,7 @@ class Search {
       found_.count = 0;
     }
     if (found_.count == kMaxEvents) return;
-    found_.events[found_.count++] = {kind, site, face, direction};
+    found_.events[found_.count++] = {kind, site, face, direction, 2};
   }
 
   Vec2 start_point(Site site) const {
@@ -170,7 +170,13 @@ class Search {
   bool stays_at_rest(const Series& slip_velocity) const {
     double sum = 0.0, power = 1.0;
     for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(slip_velocity[k]) * power;
-    return sum <= kZeroSlip * speed_;
+    // rounding of the speeds, and of the forces that should balance
+    double push = 0.0;
+    for (int i = 0; i < segment_.loaded_count; ++i) push += std::abs(segment_.loaded[i].normal_force[0]);
+    const double reach = system_.half_width + system_.base_distance;
+    const double mobility = std::max(system_.x.inverse_inertia, system_.y.inverse_inertia) +
+                            reach * reach * system_.phi.inverse_inertia;
+    return sum <= kZeroSlip * (speed_ + push * mobility * duration_);
   }
 
   void guard_loaded(Site site, const ContactSeries& contact) {

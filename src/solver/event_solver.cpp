@@ -111,6 +111,7 @@ void EventSolver::go_to_end() {
   // events may coincide, but not for ever
   const bool progress = end.high != now_.high || end.low != now_.low;
   events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
+  if (progress) conflict_tries_ = 0;
   now_ = end;
   if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
   state_ = segment_.end;
@@ -195,7 +196,15 @@ const Segment& EventSolver::advance(double limit) {
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
     segment_.duration = step;
     if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
-    found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
+    if (contact && series_.conflict().count > 0) {
+      // which one gives way shows in what follows: if the choice is not consistent, the next one is tried
+      const MotionSeries::Conflict& conflict = series_.conflict();
+      found.time = 0.0;
+      found.count = 1;
+      found.events[0] = conflict.candidates[static_cast<std::size_t>(conflict_tries_++ % conflict.count)];
+    } else {
+      found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
+    }
     if (found.count > 0) segment_.duration = found.time;
   }
   const bool kink = segment_.duration == to_kink;

@@ -48,6 +48,7 @@ class EventSolver final : public Solver {
   Flight flight_;
 
   int events_without_progress_ = 0;
+  int conflict_tries_ = 0;      ///< at this instant
   SolverCounts counts_;
 };
 

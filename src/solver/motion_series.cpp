@@ -26,6 +26,9 @@ void add_drive(const DriveForm& form, int order, Series& series) {
 
 int point_index(Site site) { return (is_edge(site) ? 0 : 2) + pair_index(site); }
 
+/// What is left of V' of two sticking contacts, relative, that is more than rounding.
+constexpr double kConflict = 1e-7;
+
 constexpr Site kPointSites[4] = {Site::a1, Site::a2, Site::b1, Site::b2};
 
 /// k(n) = c0 + c1 cos^2 phi on the faces of the part, power k.
@@ -136,6 +139,7 @@ const PairSeries& MotionSeries::direction(Segment& segment) {
 void MotionSeries::set_up_contacts(Segment& segment) {
   segment.loaded_count = 0;
   sticking_count_ = 0;
+  conflict_ = {};
   for (int i = 0; i < kSiteCount; ++i) {
     const ContactState& state = segment.contacts[i];
     if (state.phase != Phase::loaded) continue;
@@ -251,6 +255,7 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
     rhs[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point[k + 2][0] + f.t2() * point[k + 2][1]);
   }
   solve_mobility(mobility_, sticking_count_, rhs, force);
+  if (sticking_count_ > 1 && conflict_.count == 0) find_conflict(rhs, force, k);
   for (int m = 0; m < sticking_count_; ++m) {
     const Directions& d = contacts_[sticking_[m]].d;
     segment.loaded[sticking_[m]].tangential_force[k] = force[m];
@@ -283,6 +288,22 @@ MotionSeries::Load MotionSeries::contact_load(int k, const Segment& segment) con
     }
   }
   return load;
+}
+
+/// Where G is singular the contacts hold one motion for this instant; if they part in a later power, V' of power k is
+/// left over: one of them gives way, in the direction that is left over for it.
+void MotionSeries::find_conflict(const std::array<double, kSiteCount>& rhs, const std::array<double, kSiteCount>& force,
+                                 int k) {
+  for (int m = 0; m < sticking_count_; ++m) {
+    double left = -rhs[m], scale = std::abs(rhs[m]) + 1e-300;
+    for (int n = 0; n < sticking_count_; ++n) {
+      left += mobility_[m][n] * force[n];
+      scale += std::abs(mobility_[m][n] * force[n]);
+    }
+    if (std::abs(left) <= kConflict * scale) continue;
+    conflict_.candidates[conflict_.count++] = {EventKind::part, contacts_[sticking_[m]].site, Face::none,
+                                               left > 0.0 ? 1 : -1, k + 1};
+  }
 }
 
 void MotionSeries::expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment) {

@@ -28,6 +28,14 @@ class MotionSeries {
   /// Fills the segment with its loaded contacts (segment.contacts) from `start`. Sticking contacts have V = 0 exactly.
   void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
 
+  /// Contacts that stick now but cannot go on doing so together: one of `candidates` has to slide from the segment's
+  /// start, in its direction. Empty when there is no such conflict.
+  struct Conflict {
+    int count = 0;
+    std::array<Event, kSiteCount> candidates{};
+  };
+  const Conflict& conflict() const { return conflict_; }
+
   /// Coordinates of a site's point (body coordinates of an edge, position of a corner), made on the first call.
   const PairSeries& point(Site site, Segment& segment);
 
@@ -68,6 +76,7 @@ class MotionSeries {
   void point_term(Site site, int k, const Segment& segment);
   void force_terms(int k, Segment& segment);
   void hold_sticking(int k, Segment& segment);
+  void find_conflict(const std::array<double, kSiteCount>& rhs, const std::array<double, kSiteCount>& force, int k);
   void direction_terms(Contact& contact, int k, const Segment& segment) const;
   Load contact_load(int k, const Segment& segment) const;
   void accelerate(int k, const Load& load, Segment& segment) const;
@@ -80,6 +89,7 @@ class MotionSeries {
   std::array<PairSeries, 4> points_;    ///< a1, a2, b1, b2 (floor sites share their corner)
   std::array<PairSeries, 2> levers_, crossed_;  ///< edges: A - C = (r_x, r_y) and (r_y, -r_x), world axes
   std::array<int, 4> known_point_{};    ///< highest known power, -1: none
+  Conflict conflict_;
   int sticking_count_ = 0;
   std::array<int, kSiteCount> sticking_{};  ///< indices into segment.loaded
   std::array<std::array<double, kSiteCount>, kSiteCount> mobility_{};

@@ -98,11 +98,14 @@ Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kM
   }
   if (undecided == 0) return {0.0, last};
   if (undecided == 1) {
-    if (conditions.g[last][0] > 0.0) return {0.0, last};
-    // the first rise of the one undecided condition
-    Series negative = conditions.g[last];
-    for (int k = 0; k <= orders[last]; ++k) negative[k] = -negative[k];
-    return {first_fall(negative, orders[last], 1.0, 0), last};
+    const Series& g = conditions.g[last];
+    if (g[0] > 0.0 && g[1] >= 0.0) return {0.0, last};
+    // the first rise of the one undecided condition; one that starts true by a last digit, and falls, is halved away
+    if (g[0] <= 0.0) {
+      Series negative = g;
+      for (int k = 0; k <= orders[last]; ++k) negative[k] = -negative[k];
+      return {first_fall(negative, orders[last], 1.0, 0), last};
+    }
   }
   if (halvings == kMaxHalvings) {
     for (int i = 0; i < conditions.count; ++i)

@@ -17,6 +17,12 @@ constexpr double kAtLimit = 1e-9;
 /// How the friction of a loaded contact enters the decision.
 enum class Ask { keep, decide };
 
+/// A stick that has just broken: sign of V, and multiplicity of its zero at this instant.
+struct Broken {
+  int direction = 0, zeros = 2;
+  bool alone = false;  ///< the others hold on
+};
+
 struct LoadedContact {
   std::size_t site = 0;
   ContactKinematics kinematics;
@@ -36,6 +42,8 @@ Load3 drive_load(const DriveForms& drives) {
 }
 
 double moment_of(const Vec2& lever, const Vec2& force) { return lever.x * force.y - lever.y * force.x; }
+
+double reach_of(const Vec2& lever) { return std::abs(lever.x) + std::abs(lever.y); }
 
 double speed_scale(const System& system, const State& state) {
   return std::abs(state.vx) + std::abs(state.vy) +
@@ -65,6 +73,7 @@ void decide_friction(const System& system, const State& state, const DriveForms&
   double fx = drive.x - system.x.damping * state.vx - system.x.stiffness * (state.x - system.x.anchor);
   double fy = drive.y - system.y.damping * state.vy - system.y.stiffness * (state.y - system.y.anchor) - system.weight;
   double m = drive.phi - system.phi.damping * state.omega - system.phi.stiffness * (state.phi - system.phi.anchor);
+  double force_scale = std::abs(fx) + std::abs(fy), moment_scale = std::abs(m);
   for (int i = 0; i < count; ++i) {
     const LoadedContact& contact = loaded[i];
     double t = 0.0;
@@ -78,12 +87,17 @@ void decide_friction(const System& system, const State& state, const DriveForms&
     fx += force.x;
     fy += force.y;
     m += moment_of(contact.kinematics.lever, force);
+    force_scale += contact.normal_force;
+    moment_scale += contact.normal_force * reach_of(contact.kinematics.lever);
   }
   const double ax = fx * system.x.inverse_inertia, ay = fy * system.y.inverse_inertia, alpha = m * system.phi.inverse_inertia;
   for (int i = 0; i < problem.count; ++i) {
     const LoadedContact& a = loaded[asked[i]];
     const double arm = moment_of(a.kinematics.lever, a.kinematics.tangent);
     problem.drift[i] = ax * a.kinematics.tangent.x + ay * a.kinematics.tangent.y + alpha * arm + a.kinematics.slip_rate;
+    problem.drift_scale[i] = force_scale * std::max(system.x.inverse_inertia, system.y.inverse_inertia) +
+                             moment_scale * reach_of(a.kinematics.lever) * system.phi.inverse_inertia +
+                             std::abs(state.omega) * speed_scale(system, state);
     problem.limit[i] = system.friction * a.normal_force;
     for (int j = 0; j < problem.count; ++j) {
       const LoadedContact& b = loaded[asked[j]];
@@ -106,9 +120,9 @@ void decide_friction(const System& system, const State& state, const DriveForms&
 }
 
 /// Sets the law of friction of every loaded contact. `zero_slip` marks those whose V an event has just brought to zero,
-/// `broken` (sign of V) those whose stick an event has just broken.
+/// `broken` those whose stick an event has just broken.
 void set_friction(const System& system, const State& state, const DriveForms& drives,
-                  const std::array<bool, kSiteCount>& zero_slip, const std::array<int, kSiteCount>& broken,
+                  const std::array<bool, kSiteCount>& zero_slip, const std::array<Broken, kSiteCount>& broken,
                   ContactMode& mode) {
   std::array<LoadedContact, kSiteCount> loaded;
   int count = 0;
@@ -136,10 +150,10 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       }
       continue;
     }
-    if (broken[i] != 0) {
-      contact.slip = broken[i] > 0 ? Slip::plus : Slip::minus;
-      mode.pins[i].slip = 2;
-      any_broken = true;
+    if (broken[i].direction != 0) {
+      contact.slip = broken[i].direction > 0 ? Slip::plus : Slip::minus;
+      mode.pins[i].slip = broken[i].zeros;
+      any_broken = any_broken || !broken[i].alone;
     } else if (contact.slip == Slip::stick || at_rest) {
       entry.ask = Ask::decide;
     } else if (contact.slip == Slip::none) {
@@ -163,7 +177,7 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
   if (segment.duration > 0.0) mode.pins = {};
   const State& state = segment.end;
   std::array<bool, kSiteCount> zero_slip{};
-  std::array<int, kSiteCount> broken{};
+  std::array<Broken, kSiteCount> broken{};
   for (int i = 0; i < events.count; ++i) {
     const Site site = events.events[i].site;
     const auto index = static_cast<std::size_t>(site);
@@ -219,8 +233,11 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
         if (system.regularization > 0.0) {
           zero_slip[index] = true;
         } else {
-          broken[index] = events.events[i].direction;
+          broken[index] = {events.events[i].direction, events.events[i].zeros, false};
         }
+        break;
+      case EventKind::part:
+        broken[index] = {events.events[i].direction, events.events[i].zeros, true};
         break;
       default:
         break;
