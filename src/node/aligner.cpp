@@ -12,14 +12,14 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 1000;  ///< messages kept for a slow subscriber
-constexpr std::chrono::milliseconds kPublishingTurn(20);    ///< then callbacks get theirs
-constexpr std::chrono::milliseconds kPictureInterval(33);   ///< of wall time between two ~markers
-constexpr std::chrono::milliseconds kLongestLag(500);       ///< behind the wall clock, then the pace starts anew
+constexpr std::uint32_t kQueueSize = 1000;                 ///< messages kept for a slow subscriber
+constexpr std::chrono::milliseconds kPublishingTurn(20);   ///< then callbacks get theirs
+constexpr std::chrono::milliseconds kPictureInterval(33);  ///< of wall time between two ~markers
+constexpr std::chrono::milliseconds kLongestLag(500);      ///< behind the wall clock, then the pace starts anew
 constexpr std::chrono::seconds kSubscriberPatience(30);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
-constexpr double kIdleWait = 0.05;                          ///< longest wait for callbacks [s]
-constexpr double kMasterPatience = 0.5;                     ///< for a master that does not answer [s]
+constexpr double kIdleWait = 0.05;                             ///< longest wait for callbacks [s]
+constexpr double kMasterPatience = 0.5;                        ///< for a master that does not answer [s]
 
 }  // namespace
 
@@ -41,7 +41,8 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   settings_server_.updateConfig(settings_.config());
   settings_server_.setCallback([this](AlignerConfig& requested, std::uint32_t) { on_settings(requested); });
   waiting_since_ = Clock::now();
-  // From here on a dead master must not stop the trial: a changed setting is told to it, and that blocks until it answers.
+  // From here on a dead master must not stop the trial: a changed setting is told to it, and that blocks until it
+  // answers.
   ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
 }
 

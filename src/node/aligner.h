@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include <boost/thread/recursive_mutex.hpp>
 #include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <vibratory_alignment/AlignerConfig.h>
+#include <boost/thread/recursive_mutex.hpp>
 
 #include "model/scene.h"
 #include "node/drive_settings.h"

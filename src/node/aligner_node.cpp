@@ -1,4 +1,4 @@
-// aligner_node: one alignment trial as a ROS node. The README lists its parameters, topics, services and settings.
+// aligner_node: one alignment trial as a ROS node. docs/node.md lists its parameters, topics, services and settings.
 // Exit status: 0 it ran, 1 it could not start (bad scene, bad parameters).
 #include <cstdlib>
 #include <exception>

@@ -1,14 +1,16 @@
 #include "node/bag_writer.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
 
-#include <boost/make_shared.hpp>
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
+#include <boost/make_shared.hpp>
 
 #include "node/frames.h"
 #include "node/markers.h"
@@ -43,16 +45,17 @@ class BagWriter::Impl {
         messages_(scene, frames_with_prefix(options.tf_prefix)),
         markers_(scene, messages_.frames()),
         picture_interval_(scene.trial.time_limit / kPictures) {
-    guarded([&] { bag_.open(path_, rosbag::bagmode::Write); });
+    try {
+      guarded([&] { bag_->open(path_, rosbag::bagmode::Write); });
+    } catch (...) {
+      give_up();
+      throw;
+    }
   }
 
   ~Impl() {
     if (whole_) return;
-    try {
-      bag_.close();
-    } catch (const std::exception&) {
-      // it is removed anyway
-    }
+    give_up();
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::remove(path_, ignored);
   }
@@ -65,31 +68,53 @@ class BagWriter::Impl {
     guarded([&] {
       const ros::Time stamp = stamp_at(result.final_time);
       markers_.set_outcome(result.outcome);
-      bag_.write(node_ + "/markers", stamp, markers_.draw(stamp), latched());
-      bag_.write(node_ + "/result", stamp, messages_.result(result, stamp), latched());
-      bag_.close();
+      write_latched(node_ + "/markers", stamp, markers_.draw(stamp));
+      write_latched(node_ + "/result", stamp, messages_.result(result, stamp));
+      bag_->close();
     });
     whole_ = true;
   }
 
  private:
+  /// Closes a bag that is not wanted any more. One that cannot be closed (a full disk) is not destroyed either: its
+  /// destructor would close it again, throw and end the program.
+  void give_up() {
+    try {
+      bag_->close();
+    } catch (const std::exception&) {
+      static_cast<void>(bag_.release());
+    }
+  }
+
   /// Runs `work` and tells its failures with the file's name.
   template <class Work>
   void guarded(const Work& work) {
+    errno = 0;
     try {
       work();
     } catch (const std::exception& error) {
-      throw std::runtime_error(path_ + ": the bag cannot be written: " + error.what());
+      const std::string reason = errno == 0 ? "" : std::string(": ") + std::strerror(errno);
+      throw std::runtime_error(path_ + ": the bag cannot be written: " + error.what() + reason);
     }
   }
 
   ros::Time stamp_at(double time) const { return ros::Time(kStartTime + time * messages_.units().time); }
 
+  /// Connection header of a latched topic. rosbag takes it as it is, so it must describe the message, too.
+  template <class Message>
   boost::shared_ptr<ros::M_string> latched() const {
     auto header = boost::make_shared<ros::M_string>();
+    (*header)["type"] = ros::message_traits::datatype<Message>();
+    (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+    (*header)["message_definition"] = ros::message_traits::definition<Message>();
     (*header)["callerid"] = node_;
     (*header)["latching"] = "1";
     return header;
+  }
+
+  template <class Message>
+  void write_latched(const std::string& topic, const ros::Time& stamp, const Message& message) {
+    bag_->write(topic, stamp, message, latched<Message>());
   }
 
   void put(Sample sample) {
@@ -103,20 +128,20 @@ class BagWriter::Impl {
     if (last_stamp_.isZero()) {
       tf2_msgs::TFMessage fixed;
       fixed.transforms = static_transforms(scene_, messages_.frames(), {}, stamp);
-      bag_.write("/tf_static", stamp, fixed, latched());
+      write_latched("/tf_static", stamp, fixed);
     }
     last_stamp_ = stamp;
     tf2_msgs::TFMessage moving;
     moving.transforms = {part_transform(sample.state, messages_.units().length, messages_.frames(), stamp)};
-    bag_.write("/tf", stamp, moving);
-    bag_.write(node_ + "/state", stamp, messages_.state(sample, stamp));
-    bag_.write(node_ + "/reaction/a1", stamp, messages_.reaction(sample, Site::a1, stamp));
-    bag_.write(node_ + "/reaction/a2", stamp, messages_.reaction(sample, Site::a2, stamp));
-    bag_.write(node_ + "/contacts", stamp, messages_.contacts(sample, stamp));
+    bag_->write("/tf", stamp, moving);
+    bag_->write(node_ + "/state", stamp, messages_.state(sample, stamp));
+    bag_->write(node_ + "/reaction/a1", stamp, messages_.reaction(sample, Site::a1, stamp));
+    bag_->write(node_ + "/reaction/a2", stamp, messages_.reaction(sample, Site::a2, stamp));
+    bag_->write(node_ + "/contacts", stamp, messages_.contacts(sample, stamp));
     markers_.add(sample);
     if (sample.time >= next_picture_) {
       next_picture_ = sample.time + picture_interval_;
-      bag_.write(node_ + "/markers", stamp, markers_.draw(stamp), latched());
+      write_latched(node_ + "/markers", stamp, markers_.draw(stamp));
     }
   }
 
@@ -124,7 +149,7 @@ class BagWriter::Impl {
   Scene scene_;
   Messages messages_;
   Markers markers_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
   ros::Time last_stamp_;
   std::optional<Sample> carried_;  ///< of event instants since the last message
   double picture_interval_, next_picture_ = 0.0;

@@ -51,8 +51,8 @@ DriveSettings::DriveSettings(const Scene& scene, double time_scale)
 
 std::vector<std::string> DriveSettings::change(AlignerConfig& requested) {
   std::vector<std::string> refusals;
-  // The server clamps every value of a request, also those that nobody has asked to change: a value that the scene gives
-  // beyond the range must survive that.
+  // The server clamps every value of a request, also those that nobody has asked to change: a value that the scene
+  // gives beyond the range must survive that.
   AlignerConfig clamped = config_;
   clamped.__clamp__();
   const auto check = [&](double AlignerConfig::*value, const char* name) {

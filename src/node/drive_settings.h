@@ -1,5 +1,5 @@
-// What dynamic_reconfigure can change (config/Aligner.cfg), against the scene: its first excitation, its pressing force,
-// and the time scale. Config values are in the scene's own units, everything else is dimensionless.
+// What dynamic_reconfigure can change (config/Aligner.cfg), against the scene: its first excitation, its pressing
+// force, and the time scale. Config values are in the scene's own units, everything else is dimensionless.
 #pragma once
 
 #include <optional>

@@ -13,24 +13,36 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 constexpr std::size_t kTracePoints = 512;  ///< when the trace is full, every other point is dropped
-constexpr double kPeakFading = 0.93;       ///< of a peak's length from sample to sample
-constexpr double kThickness = 1.2;         ///< of the bodies behind the plane, in half part widths
-constexpr double kGap = 0.02;              ///< from the plane of motion to the bodies
-constexpr double kLongestArrow = 1.5;
-constexpr double kLeastForceScale = 2.0;   ///< dimensionless force that draws the longest arrow at least
+constexpr double kPeakFading = 0.9;        ///< of a peak from sample to sample
+
+// In half widths of the slot:
+constexpr double kThickness = 1.0;  ///< of the bodies behind the plane of motion
+constexpr double kGap = 0.02;       ///< from the plane of motion to the bodies
+constexpr double kBaseWidth = 2.1;  ///< of each half of the base
+constexpr double kBaseDepth = 1.3;  ///< of a base whose slot has no floor
+constexpr double kFloorThickness = 0.4;
+constexpr double kTallest = 3.2;  ///< what is higher of the part is cut off, but for a piece above its centre
+constexpr double kLeastAboveCentre = 0.5;
+constexpr double kLongestArrow = 1.3;
+constexpr double kShortestArrow = 0.07;  ///< shorter ones are not drawn
+constexpr double kLineWidth = 0.025;
+constexpr double kCentreDot = 0.055, kContactDot = 0.11;
+constexpr double kTextHeight = 0.16, kLineHeight = 0.25;
+constexpr double kTextX = -2.1, kTextY = 2.6;  ///< centre of the first line
+
+constexpr double kLeastForceScale = 2.0;  ///< dimensionless force that draws the longest arrow at least
 
 struct Colour {
-  float red, green, blue, alpha;
+  float red, green, blue, alpha = 1.0F;
 };
-constexpr Colour kBaseColour{0.45F, 0.50F, 0.56F, 1.0F};
-constexpr Colour kFloorColour{0.36F, 0.40F, 0.45F, 1.0F};
-constexpr Colour kPartColour{0.93F, 0.64F, 0.16F, 1.0F};
-constexpr Colour kCentreColour{0.10F, 0.10F, 0.12F, 1.0F};
-constexpr Colour kTraceColour{0.05F, 0.25F, 0.65F, 1.0F};
-constexpr Colour kContactColour{0.95F, 0.95F, 0.20F, 1.0F};
-constexpr Colour kReactionColour{0.85F, 0.08F, 0.10F, 1.0F};
-constexpr Colour kPeakColour{0.85F, 0.20F, 0.55F, 0.45F};
-constexpr Colour kTextColour{0.08F, 0.09F, 0.12F, 1.0F};
+constexpr Colour kBaseColour{0.55F, 0.60F, 0.66F};
+constexpr Colour kPartColour{0.96F, 0.68F, 0.20F};
+constexpr Colour kCentreColour{0.10F, 0.10F, 0.12F};
+constexpr Colour kTraceColour{0.05F, 0.25F, 0.75F};
+constexpr Colour kContactColour{0.98F, 0.95F, 0.25F};
+constexpr Colour kReactionColour{0.85F, 0.08F, 0.10F};
+constexpr Colour kPeakColour{0.85F, 0.15F, 0.55F, 0.5F};
+constexpr Colour kTextColour{0.08F, 0.09F, 0.12F};
 
 void paint(Marker& marker, const Colour& colour) {
   marker.color.r = colour.red;
@@ -39,30 +51,67 @@ void paint(Marker& marker, const Colour& colour) {
   marker.color.a = colour.alpha;
 }
 
-geometry_msgs::Point point(double x, double y, double unit) {
+/// Point of the plane of motion in ROS axes; `behind` the plane, away from the observer.
+geometry_msgs::Point point(double x, double y, double unit, double behind = 0.0) {
   geometry_msgs::Point point;
   point.x = x * unit;
+  point.y = behind * unit;
   point.z = y * unit;
   return point;
 }
 
+/// A box between two corners of the plane of motion, behind it. The shade of each face is fixed: rviz's light would
+/// leave those black that are seen here.
+class Boxes {
+ public:
+  Boxes(Marker& marker, double front, double back, double unit)
+      : marker_(&marker), front_(front), back_(back), unit_(unit) {
+    marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  }
+
+  void add(double left, double bottom, double right, double top) {
+    const geometry_msgs::Point near[4] = {at(left, bottom, front_), at(right, bottom, front_), at(right, top, front_),
+                                          at(left, top, front_)};
+    const geometry_msgs::Point far[4] = {at(left, bottom, back_), at(right, bottom, back_), at(right, top, back_),
+                                         at(left, top, back_)};
+    face(near[0], near[1], near[2], near[3], 1.0F);
+    face(far[1], far[0], far[3], far[2], 0.8F);
+    face(near[3], near[2], far[2], far[3], 1.12F);
+    face(near[1], near[0], far[0], far[1], 0.6F);
+    face(near[1], far[1], far[2], near[2], 0.78F);
+    face(far[0], near[0], near[3], far[3], 0.78F);
+  }
+
+ private:
+  geometry_msgs::Point at(double x, double y, double behind) const { return point(x, y, unit_, behind); }
+
+  void face(const geometry_msgs::Point& a, const geometry_msgs::Point& b, const geometry_msgs::Point& c,
+            const geometry_msgs::Point& d, float shade) {
+    std_msgs::ColorRGBA colour = marker_->color;
+    for (float* part : {&colour.r, &colour.g, &colour.b}) *part = std::min(1.0F, *part * shade);
+    for (const geometry_msgs::Point* corner : {&a, &b, &c, &a, &c, &d}) {
+      marker_->points.push_back(*corner);
+      marker_->colors.push_back(colour);
+    }
+  }
+
+  Marker* marker_;
+  double front_, back_, unit_;
+};
+
 /// "12.3 mm"; without scales "12.3".
 std::string with_unit(double value, const char* unit, bool has_scales) {
   char text[64];
-  if (!has_scales) {
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-  }
-  const double size = std::abs(value);
   const char* prefix = "";
-  if (size > 0.0 && size < 0.9995e-3) {
+  const double size = std::abs(value);
+  if (has_scales && size > 0.0 && size < 0.9995e-3) {
     prefix = "u";
     value *= 1e6;
-  } else if (size > 0.0 && size < 0.9995) {
+  } else if (has_scales && size > 0.0 && size < 0.9995) {
     prefix = "m";
     value *= 1e3;
   }
-  std::snprintf(text, sizeof text, "%.3g %s%s", value, prefix, unit);
+  std::snprintf(text, sizeof text, has_scales ? "%.3g %s%s" : "%.3g", value, prefix, unit);
   return text;
 }
 
@@ -74,9 +123,9 @@ Markers::Markers(const Scene& scene, const Frames& frames)
       units_(ros_units(scene)),
       part_(scene.part),
       slot_half_width_(scene.slot_half_width()),
-      slot_depth_(scene.slot.depth.value_or(1.6 * scene.part.base_distance)),
+      slot_depth_(scene.slot.depth.value_or(kBaseDepth * scene.slot_half_width())),
       has_floor_(scene.contacts.walls && scene.slot.depth.has_value()),
-      size_(scene.part.half_width) {
+      size_(slot_half_width_) {
   trace_.reserve(kTracePoints);
 }
 
@@ -92,21 +141,33 @@ void Markers::add(const Sample& sample) {
   }
   for (int i = 0; i < kSiteCount; ++i) {
     const ContactSample& contact = sample.contacts[static_cast<std::size_t>(i)];
-    const auto spot = static_cast<std::size_t>(spot_of(static_cast<Site>(i)));
-    Arrow& now = now_[spot];
+    const Spot spot = spot_of(static_cast<Site>(i));
+    Arrow& now = now_[static_cast<std::size_t>(spot)];
     now.force_x += contact.force_x;
     now.force_y += contact.force_y;
-    if (contact.normal_force > 0.0) {
-      now.point_x = contact.point_x;
-      now.point_y = contact.point_y;
-    }
+    place(now, spot);
+    Arrow& peak = peak_[static_cast<std::size_t>(spot)];
     const double impulse = std::hypot(contact.impulse_x, contact.impulse_y);
-    Arrow& peak = peak_[spot];
     if (impulse > 0.0 && contact.peak_normal_force > std::hypot(peak.force_x, peak.force_y)) {
-      peak = {contact.peak_normal_force * contact.impulse_x / impulse,
-              contact.peak_normal_force * contact.impulse_y / impulse, contact.point_x, contact.point_y};
+      peak.force_x = contact.peak_normal_force * contact.impulse_x / impulse;
+      peak.force_y = contact.peak_normal_force * contact.impulse_y / impulse;
+      place(peak, spot);
     }
-    largest_force_ = std::max({largest_force_, contact.peak_normal_force, std::hypot(now.force_x, now.force_y)});
+    largest_force_ = std::max(largest_force_, contact.peak_normal_force);
+  }
+}
+
+/// The edge of the slot, or the corner of the part where it is now.
+void Markers::place(Arrow& arrow, Spot spot) const {
+  const State& state = sample_.state;
+  const double side = spot == Spot::a1 || spot == Spot::b1 ? 1.0 : -1.0;
+  if (spot == Spot::a1 || spot == Spot::a2) {
+    arrow.point_x = side * slot_half_width_;
+    arrow.point_y = 0.0;
+  } else {
+    const double a = side * part_.half_width, b = part_.base_distance;
+    arrow.point_x = state.x + a * std::cos(state.phi) + b * std::sin(state.phi);
+    arrow.point_y = state.y + a * std::sin(state.phi) - b * std::cos(state.phi);
   }
 }
 
@@ -128,7 +189,7 @@ MarkerArray Markers::clear(const ros::Time& stamp) {
   now_ = peak_ = {};
   largest_force_ = 0.0;
   MarkerArray array;
-  array.markers.push_back(marker(stamp, "base", 0, Marker::CUBE));
+  array.markers.push_back(marker(stamp, "base", 0, Marker::TRIANGLE_LIST));
   array.markers.back().action = Marker::DELETEALL;
   return array;
 }
@@ -146,57 +207,42 @@ Marker Markers::marker(const ros::Time& stamp, const char* name, int id, int typ
 }
 
 void Markers::draw_base(const ros::Time& stamp, MarkerArray& array) const {
-  const double unit = units_.length;
-  const double width = 3.0 * size_, thickness = kThickness * size_;
-  const double depth = slot_depth_ + (has_floor_ ? 0.3 * size_ : 0.0);
-  for (int side = 0; side < 2; ++side) {
-    Marker half = marker(stamp, "base", side, Marker::CUBE);
-    const double centre = slot_half_width_ + width / 2.0;
-    half.pose.position.x = (side == 0 ? centre : -centre) * unit;
-    half.pose.position.y = (thickness / 2.0 + kGap * size_) * unit;
-    half.pose.position.z = -depth / 2.0 * unit;
-    half.scale.x = width * unit;
-    half.scale.y = thickness * unit;
-    half.scale.z = depth * unit;
-    paint(half, kBaseColour);
-    array.markers.push_back(half);
-  }
-  if (!has_floor_) return;
-  Marker floor = marker(stamp, "base", 2, Marker::CUBE);
-  floor.pose.position.y = (thickness / 2.0 + kGap * size_) * unit;
-  floor.pose.position.z = -(slot_depth_ + 0.15 * size_) * unit;
-  floor.scale.x = 2.0 * slot_half_width_ * unit;
-  floor.scale.y = thickness * unit;
-  floor.scale.z = 0.3 * size_ * unit;
-  paint(floor, kFloorColour);
-  array.markers.push_back(floor);
+  Marker base = marker(stamp, "base", 0, Marker::TRIANGLE_LIST);
+  paint(base, kBaseColour);
+  Boxes boxes(base, kGap * size_, (kGap + kThickness) * size_, units_.length);
+  const double inside = slot_half_width_, outside = slot_half_width_ + kBaseWidth * size_;
+  boxes.add(-outside, -slot_depth_, -inside, 0.0);
+  boxes.add(inside, -slot_depth_, outside, 0.0);
+  if (has_floor_) boxes.add(-outside, -slot_depth_ - kFloorThickness * size_, outside, -slot_depth_);
+  array.markers.push_back(base);
 }
 
 void Markers::draw_part(const ros::Time& stamp, MarkerArray& array) const {
-  const double unit = units_.length, thickness = kThickness * size_;
+  const double unit = units_.length;
   const State& state = sample_.state;
-  Marker body = marker(stamp, "part", 0, Marker::CUBE);
+  Marker body = marker(stamp, "part", 0, Marker::TRIANGLE_LIST);
   body.pose.position = point(state.x, state.y, unit);
-  body.pose.position.y = (thickness / 2.0 + kGap * size_) * unit;
   body.pose.orientation.y = -std::sin(state.phi / 2.0);
   body.pose.orientation.w = std::cos(state.phi / 2.0);
-  body.scale.x = 2.0 * part_.half_width * unit;
-  body.scale.y = thickness * unit;
-  body.scale.z = 2.0 * part_.base_distance * unit;
   paint(body, kPartColour);
+  const double b = part_.base_distance;
+  const double above_centre = std::min(b, std::max(kTallest * size_ - b, kLeastAboveCentre * size_));
+  Boxes(body, kGap * size_, (kGap + kThickness) * size_, unit)
+      .add(-part_.half_width, -b, part_.half_width, above_centre);
   array.markers.push_back(body);
 
   Marker centre = marker(stamp, "part", 1, Marker::SPHERE);
   centre.pose.position = point(state.x, state.y, unit);
-  centre.scale.x = centre.scale.y = centre.scale.z = 0.09 * size_ * unit;
+  centre.scale.x = centre.scale.y = centre.scale.z = kCentreDot * size_ * unit;
   paint(centre, kCentreColour);
   array.markers.push_back(centre);
 }
 
 void Markers::draw_trace(const ros::Time& stamp, MarkerArray& array) const {
   Marker trace = marker(stamp, "trace", 0, Marker::LINE_STRIP);
-  trace.scale.x = 0.02 * size_ * units_.length;
+  trace.scale.x = kLineWidth * size_ * units_.length;
   paint(trace, kTraceColour);
+  trace.pose.position.y = -0.1 * size_ * units_.length;  // before the centre and the arrows
   trace.points = trace_;
   trace.points.push_back(point(sample_.state.x, sample_.state.y, units_.length));
   if (trace.points.size() < 2) trace.points.push_back(trace.points.back());
@@ -205,17 +251,18 @@ void Markers::draw_trace(const ros::Time& stamp, MarkerArray& array) const {
 
 Marker Markers::arrow(const ros::Time& stamp, const char* name, int id, const Arrow& force) const {
   Marker arrow = marker(stamp, name, id, Marker::ARROW);
-  const double length = kLongestArrow * size_ / std::max(largest_force_, kLeastForceScale);
-  const double dx = force.force_x * length, dy = force.force_y * length;
-  if (std::hypot(dx, dy) < 0.02 * size_) {
+  const double size = std::hypot(force.force_x, force.force_y);
+  const double length = kLongestArrow * size_ * std::sqrt(size / std::max(largest_force_, kLeastForceScale));
+  if (length < kShortestArrow * size_) {
     arrow.action = Marker::DELETE;
     return arrow;
   }
+  const double dx = force.force_x / size * length, dy = force.force_y / size * length;
   const double unit = units_.length;
   arrow.points = {point(force.point_x, force.point_y, unit), point(force.point_x + dx, force.point_y + dy, unit)};
-  arrow.scale.x = 0.07 * size_ * unit;
-  arrow.scale.y = 0.16 * size_ * unit;
-  arrow.scale.z = std::min(0.22 * size_, 0.5 * std::hypot(dx, dy)) * unit;
+  arrow.scale.x = 0.06 * size_ * unit;
+  arrow.scale.y = 0.14 * size_ * unit;
+  arrow.scale.z = std::min(0.2 * size_, 0.5 * length) * unit;
   return arrow;
 }
 
@@ -225,7 +272,7 @@ void Markers::draw_contacts(const ros::Time& stamp, MarkerArray& array) const {
     Marker dot = marker(stamp, "contact", i, Marker::SPHERE);
     if (contact.state.touching()) {
       dot.pose.position = point(contact.point_x, contact.point_y, units_.length);
-      dot.scale.x = dot.scale.y = dot.scale.z = 0.13 * size_ * units_.length;
+      dot.scale.x = dot.scale.y = dot.scale.z = kContactDot * size_ * units_.length;
       paint(dot, kContactColour);
     } else {
       dot.action = Marker::DELETE;
@@ -241,20 +288,26 @@ void Markers::draw_contacts(const ros::Time& stamp, MarkerArray& array) const {
 }
 
 void Markers::draw_text(const ros::Time& stamp, MarkerArray& array) const {
-  const double unit = units_.length;
-  Marker text = marker(stamp, "text", 0, Marker::TEXT_VIEW_FACING);
-  text.pose.position = point(0.0, 2.0 * part_.base_distance + 1.1 * size_, unit);
-  text.scale.z = 0.2 * size_ * unit;
-  paint(text, kTextColour);
   char tau[32];
   std::snprintf(tau, sizeof tau, "tau = %.2f", sample_.time);
-  text.text = std::string(tau);
-  if (has_scales_) text.text += "   t = " + with_unit(sample_.time * units_.time, "s", true);
-  text.text += "\nmisalignment " + with_unit(sample_.misalignment * units_.length, "m", has_scales_);
-  text.text += "\nlargest reaction " + with_unit(largest_force_ * units_.force, "N", has_scales_);
-  text.text += std::string("\nmode: ") + to_string(sample_.mode);
-  if (outcome_ != Outcome::running) text.text += std::string("\n") + to_string(outcome_);
-  array.markers.push_back(text);
+  std::vector<std::string> lines = {tau};
+  if (has_scales_) lines.push_back("t = " + with_unit(sample_.time * units_.time, "s", true));
+  lines.push_back("misalignment " + with_unit(sample_.misalignment * units_.length, "m", has_scales_));
+  lines.push_back("largest reaction " + with_unit(largest_force_ * units_.force, "N", has_scales_));
+  lines.push_back(std::string("mode ") + to_string(sample_.mode));
+  if (outcome_ != Outcome::running) lines.emplace_back(to_string(outcome_));
+
+  // A marker for each line: rviz spaces the lines of one marker by a fixed length, whatever their height.
+  double y = kTextY * size_;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    Marker line = marker(stamp, "text", static_cast<int>(i), Marker::TEXT_VIEW_FACING);
+    line.pose.position = point(kTextX * size_, y, units_.length);
+    line.scale.z = kTextHeight * size_ * units_.length;
+    paint(line, kTextColour);
+    line.text = lines[i];
+    array.markers.push_back(line);
+    y -= kLineHeight * size_;
+  }
 }
 
 MarkerArray Markers::draw(const ros::Time& stamp) const {

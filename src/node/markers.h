@@ -1,15 +1,16 @@
 // The picture of a trial for rviz: a section through the plane of motion, seen along the ROS y axis.
 //
-//   namespace    id             what
-//   base         0..1, 2        the two halves of the base; the slot's floor if it has one
-//   part         0, 1           the part; its mass centre
-//   trace        0              the way of the mass centre
-//   contact      site           a dot at each contact point
-//   reaction     spot           force of the base on the part now
-//   peak         spot           the largest force of late, fading: shows impacts that fall between two messages
-//   text         0              time, misalignment, mode, forces, outcome
+//   namespace  id     what
+//   base       0      the base with its slot, and the floor if it has one
+//   part       0, 1   the part; its mass centre
+//   trace      0      the way of the mass centre
+//   contact    site   a dot at each contact point
+//   reaction   spot   force of the base on the part now
+//   peak       spot   the largest force of late, fading: shows impacts that fall between two messages
+//   text       line   time, misalignment, force, mode and outcome
 // Bodies lie behind the plane of motion, so that frames, trace and arrows are in front of them. All lengths follow the
-// size of the slot; arrows are scaled by the largest force so far. Markers stay until they are deleted.
+// size of the slot; the length of an arrow goes with the root of its force relative to the largest so far, so that
+// small forces are seen beside large ones. Markers stay until they are deleted.
 #pragma once
 
 #include <array>
@@ -58,6 +59,7 @@ class Markers {
   void draw_contacts(const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
   void draw_text(const ros::Time& stamp, visualization_msgs::MarkerArray& array) const;
   void extend_trace();
+  void place(Arrow& arrow, Spot spot) const;
 
   Frames frames_;
   bool has_scales_;
@@ -65,14 +67,14 @@ class Markers {
   Part part_;
   double slot_half_width_, slot_depth_;  ///< drawn depth
   bool has_floor_;
-  double size_;                          ///< half the part's width; everything is drawn in proportion to it
+  double size_;  ///< half the slot's width; everything is drawn in proportion to it
 
   Sample sample_;
   Outcome outcome_ = Outcome::running;
   std::vector<geometry_msgs::Point> trace_;
   long trace_stride_ = 1, trace_skipped_ = 0;
   std::array<Arrow, kSpotCount> now_{}, peak_{};
-  double largest_force_ = 0.0;
+  double largest_force_ = 0.0;  ///< so far
 };
 
 }  // namespace vibratory_alignment

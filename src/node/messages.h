@@ -1,7 +1,8 @@
 // Core data -> the package's messages, in SI through the scene's scales. One conversion for the live node and the bag.
 //
 // Without scales in the scene the scales are 1 (1 unit of length = 1 m, of time = 1 s, of force = 1 N).
-// Vectors in the plane (x, y) become (x, 0, y); a moment M, counter-clockwise, becomes a torque -M about the ROS y axis.
+// Vectors in the plane (x, y) become (x, 0, y); a moment M, counter-clockwise, becomes a torque -M about the ROS y
+// axis.
 #pragma once
 
 #include <string>

@@ -11,6 +11,7 @@
 namespace vibratory_alignment {
 namespace {
 
+constexpr double kSlowMotion = 0.002;  ///< a trial of some ten milliseconds is watched for some ten seconds
 constexpr double kSamplesPerPeriod = 20.0;
 constexpr double kSamplesWithoutExcitation = 1000.0;
 
@@ -90,7 +91,8 @@ bool positive(double value) { return value > 0.0; }
 }  // namespace
 
 const std::vector<std::string>& topic_names() {
-  static const std::vector<std::string> names = {"state", "reaction/a1", "reaction/a2", "contacts", "markers", "result"};
+  static const std::vector<std::string> names = {"state",    "reaction/a1", "reaction/a2",
+                                                 "contacts", "markers",     "result"};
   return names;
 }
 
@@ -100,10 +102,11 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
   parameters.time_scale = reader
                               .number("time_scale", "must be a number from 0 to 1000",
                                       [](double value) { return value >= 0.0 && value <= 1000.0; })
-                              .value_or(scene.scales ? 0.01 : 1.0);
+                              .value_or(scene.scales ? kSlowMotion : 1.0);
   parameters.publish_rate =
       reader.number("publish_rate", "must be a number > 0 [1/s]", positive).value_or(parameters.publish_rate);
-  parameters.sample_interval = reader.number("sample_interval", "must be a number > 0, in the scene's unit of time", positive);
+  parameters.sample_interval =
+      reader.number("sample_interval", "must be a number > 0, in the scene's unit of time", positive);
   parameters.autostart = reader.flag("autostart", parameters.autostart);
   parameters.exit_when_done = reader.flag("exit_when_done", parameters.exit_when_done);
   parameters.linger = reader.number("linger", "must be a number >= 0 [s]", [](double value) { return value >= 0.0; })

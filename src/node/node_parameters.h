@@ -20,13 +20,13 @@ class ParameterError : public std::runtime_error {
 };
 
 struct NodeParameters {
-  double time_scale = 1.0;            ///< ~time_scale: simulated per wall time, >= 0; default 0.01, without scales 1
-  double publish_rate = 100.0;        ///< ~publish_rate [1/s of wall time], > 0: sets the sample interval
+  double time_scale = 1.0;      ///< ~time_scale: simulated per wall time, >= 0; default 0.002, without scales 1
+  double publish_rate = 100.0;  ///< ~publish_rate [1/s of wall time], > 0: sets the sample interval
   std::optional<double> sample_interval;  ///< ~sample_interval, in the scene's unit of time, > 0: instead of the rate
-  bool autostart = true;              ///< ~autostart: false waits for ~start
-  bool exit_when_done = false;        ///< ~exit_when_done: the node ends after the result ...
-  double linger = 1.0;                ///< ~linger: ... this much later [s of wall time], >= 0
-  std::string tf_prefix;              ///< ~tf_prefix: "left" makes left/slot, left/part ...
+  bool autostart = true;                  ///< ~autostart: false waits for ~start
+  bool exit_when_done = false;            ///< ~exit_when_done: the node ends after the result ...
+  double linger = 1.0;                    ///< ~linger: ... this much later [s of wall time], >= 0
+  std::string tf_prefix;                  ///< ~tf_prefix: "left" makes left/slot, left/part ...
   std::array<double, 3> slot_position{};  ///< ~slot_position: of the slot in the world [m]
   std::vector<std::string> wait_for_subscribers;  ///< ~wait_for_subscribers: topics, as in "state result"
 };

@@ -1,0 +1,112 @@
+"""What the rostests of the node share: messages as they come, services, and `align trial` for comparison."""
+
+import csv
+import os
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import rospy
+from geometry_msgs.msg import WrenchStamped
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import MarkerArray
+
+from vibratory_alignment.msg import AlignerContacts, AlignerResult, AlignerState
+
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'scenes')
+
+
+def scene_path(name):
+    return os.path.join(SCENES, name + '.yaml')
+
+
+class Listener:
+    """Keeps every message of a topic."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self.arrivals = []
+        self._changed = threading.Condition()
+        self.subscriber = rospy.Subscriber(topic, kind, self._on_message, queue_size=10000, tcp_nodelay=True)
+
+    def _on_message(self, message):
+        with self._changed:
+            self.messages.append(message)
+            self.arrivals.append(time.time())
+            self._changed.notify_all()
+
+    def wait(self, condition, timeout=15.0):
+        """Waits until condition(messages); True if it came true in time."""
+        deadline = time.time() + timeout
+        with self._changed:
+            while not condition(self.messages):
+                if not self._changed.wait(max(0.0, deadline - time.time())) and time.time() >= deadline:
+                    return False
+        return True
+
+    def wait_for(self, count, timeout=15.0):
+        return self.wait(lambda messages: len(messages) >= count, timeout)
+
+
+class AlignerTestCase(unittest.TestCase):
+    """A node that waits for the service start."""
+
+    node = '/aligner'
+
+    @classmethod
+    def setUpClass(cls):
+        if not rospy.core.is_initialized():
+            rospy.init_node('test_aligner', anonymous=True)
+
+    def listen(self, topic, kind=None):
+        """Listens to a topic of the node, from when the node has connected."""
+        kinds = {'state': AlignerState, 'contacts': AlignerContacts, 'result': AlignerResult,
+                 'markers': MarkerArray, 'reaction/a1': WrenchStamped, 'reaction/a2': WrenchStamped}
+        listener = Listener(topic if kind else self.node + '/' + topic, kind or kinds[topic])
+        deadline = time.time() + 15.0
+        while listener.subscriber.get_num_connections() == 0:
+            self.assertLess(time.time(), deadline, topic + ' is not published')
+            time.sleep(0.02)
+        return listener
+
+    def call(self, service):
+        rospy.wait_for_service(self.node + '/' + service, 15.0)
+        return rospy.ServiceProxy(self.node + '/' + service, Trigger)()
+
+    def reset(self, states):
+        """Goes back to the start; `states` then holds its sample alone."""
+        for _ in range(10):  # the node may know a new listener a little later than the listener the node
+            del states.messages[:], states.arrivals[:]
+            self.assertTrue(self.call('reset').success)
+            if states.wait(lambda messages: messages and messages[-1].tau == 0.0, 2.0):
+                time.sleep(0.1)
+                del states.messages[:-1], states.arrivals[:-1]
+                return
+        self.fail('no state after the reset')
+
+    def run_to_end(self):
+        """Resets the trial, runs it and returns its result."""
+        self.call('reset')
+        result = self.listen('result')
+        time.sleep(0.3)  # a latched result of an earlier run is here by now
+        earlier = len(result.messages)
+        self.assertTrue(self.call('start').success)
+        self.assertTrue(result.wait_for(earlier + 1, 30.0), 'no result')
+        time.sleep(0.3)
+        return result.messages[-1]
+
+
+def align(*arguments):
+    """Output of the command line."""
+    return subprocess.check_output(('rosrun', 'vibratory_alignment', 'align') + arguments, universal_newlines=True)
+
+
+def trial_rows(scene, sample):
+    """Rows of `align trial --csv` as dictionaries of numbers, in the scene's own units."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = os.path.join(directory, 'trial.csv')
+        align('trial', scene, '--csv', path, '--sample', repr(sample))
+        with open(path) as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""What the node cannot run: it names the fault and ends with exit status 1."""
+import subprocess
+import tempfile
+import unittest
+
+import rospy
+import rostest
+import yaml
+
+from aligner_test_case import scene_path
+
+
+def start(*arguments):
+    """Exit status and log of a node that is to end by itself."""
+    process = subprocess.run(('rosrun', 'vibratory_alignment', 'aligner_node', '__name:=bad') + arguments,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=20, universal_newlines=True)
+    return process.returncode, process.stdout
+
+
+class BadStart(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('test_bad_start')
+
+    def setUp(self):
+        if rospy.has_param('/bad'):
+            rospy.delete_param('/bad')
+        with open(scene_path('small')) as file:
+            self.scene = yaml.safe_load(file)
+
+    def assert_refused(self, *parts, arguments=()):
+        status, log = start(*arguments)
+        self.assertEqual(status, 1, log)
+        self.assertIn('FATAL', log)
+        for part in parts:
+            self.assertIn(part, log)
+
+    def test_no_parameters(self):
+        self.assert_refused('/bad/scene', 'no scene', '/bad/scene_file')
+
+    def test_all_faults_of_a_scene_at_once(self):
+        del self.scene['base']
+        self.scene['part']['half_width'] = -1.0
+        self.scene['slot']['clearence'] = 0.1
+        rospy.set_param('/bad/scene', self.scene)
+        self.assert_refused('/bad/scene: part.half_width', '-1', 'clearence', 'base.stiffness')
+
+    def test_nan_in_the_scene(self):
+        self.scene['gripper']['pressing_force'] = float('nan')
+        rospy.set_param('/bad/scene', self.scene)
+        self.assert_refused('gripper.pressing_force')
+
+    def test_scene_that_is_no_tree(self):
+        rospy.set_param('/bad/scene', 'fig2')
+        self.assert_refused('/bad/scene')
+
+    def test_missing_file(self):
+        self.assert_refused('/no/such/scene.yaml', arguments=('_scene_file:=/no/such/scene.yaml',))
+
+    def test_empty_and_binary_file(self):
+        for content in (b'', b'\x7fELF\x00\x01\xff\xfe' * 20):
+            with tempfile.NamedTemporaryFile(suffix='.yaml') as file:
+                file.write(content)
+                file.flush()
+                self.assert_refused(file.name, arguments=('_scene_file:=' + file.name,))
+
+    def test_tree_and_file(self):
+        rospy.set_param('/bad/scene', self.scene)
+        self.assert_refused('both', arguments=('_scene_file:=' + scene_path('small'),))
+
+    def test_start_beyond_the_base(self):
+        self.scene['initial']['x'] = 1000.0
+        rospy.set_param('/bad/scene', self.scene)
+        self.assert_refused('initial')
+
+    def test_parameters_of_the_node(self):
+        for name, value in (('time_scale', -1.0), ('time_scale', float('nan')), ('publish_rate', 0),
+                            ('autostart', 'maybe'), ('slot_position', [1, 2]), ('wait_for_subscribers', 'nonsense'),
+                            ('tf_prefix', '/left')):
+            rospy.set_param('/bad/scene', self.scene)
+            rospy.set_param('/bad/' + name, value)
+            self.assert_refused('/bad/' + name)
+            rospy.delete_param('/bad')
+
+
+if __name__ == '__main__':
+    rostest.rosrun('vibratory_alignment', 'bad_start', BadStart)

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""The services ~start, ~pause, ~step and ~reset."""
+import time
+
+import rostest
+
+from aligner_test_case import AlignerTestCase
+
+INTERVAL = 0.01
+
+
+class Services(AlignerTestCase):
+
+    def setUp(self):
+        self.states = self.listen('state')
+        self.reset(self.states)
+        del self.states.messages[:]
+
+    def test_nothing_moves_before_the_start(self):
+        time.sleep(0.5)
+        self.assertEqual(self.states.messages, [])
+
+    def test_step_is_one_sample(self):
+        for count in (1, 2, 3):
+            response = self.call('step')
+            self.assertTrue(response.success, response.message)
+            self.assertTrue(self.states.wait_for(count))
+        time.sleep(0.3)
+        self.assertEqual([state.tau for state in self.states.messages], [1 * INTERVAL, 2 * INTERVAL, 3 * INTERVAL])
+
+    def test_pause_stops_and_start_goes_on_without_a_gap(self):
+        self.assertTrue(self.call('start').success)
+        self.assertTrue(self.states.wait_for(20))
+        self.assertTrue(self.call('pause').success)
+        time.sleep(0.2)
+        count = len(self.states.messages)
+        time.sleep(0.5)
+        self.assertEqual(len(self.states.messages), count, 'published while paused')
+        self.assertTrue(self.call('start').success)
+        self.assertTrue(self.states.wait_for(count + 20))
+        self.call('pause')
+        for i, state in enumerate(self.states.messages):
+            self.assertEqual(state.tau, (i + 1) * INTERVAL)
+
+    def test_step_pauses_a_running_trial(self):
+        self.call('start')
+        self.assertTrue(self.states.wait_for(5))
+        self.assertTrue(self.call('step').success)
+        time.sleep(0.2)
+        count = len(self.states.messages)
+        time.sleep(0.3)
+        self.assertEqual(len(self.states.messages), count)
+
+    def test_reset_repeats_the_trial(self):
+        self.run_to_end()
+        first = [state for state in self.states.messages]
+        self.assertFalse(self.call('start').success, 'the trial has ended')
+        self.assertFalse(self.call('step').success)
+        del self.states.messages[:]
+        self.run_to_end()
+        self.assertEqual([(s.tau, s.dimensionless) for s in first],
+                         [(s.tau, s.dimensionless) for s in self.states.messages])
+
+    def test_reset_deletes_the_picture(self):
+        markers = self.listen('markers')
+        self.call('reset')
+        self.assertTrue(markers.wait(lambda messages: any(
+            marker.action == marker.DELETEALL for message in messages for marker in message.markers)))
+
+
+if __name__ == '__main__':
+    rostest.rosrun('vibratory_alignment', 'services', Services)

@@ -1,0 +1,153 @@
+// A trial whose settings change between samples.
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "node/trial_run.h"
+#include "small_scene.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr double kInterval = 0.01;
+
+bool same_bits(const State& a, const State& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+std::vector<Sample> all_samples(TrialRun& run) {
+  std::vector<Sample> samples;
+  for (Sample sample; run.next(sample);) samples.push_back(sample);
+  return samples;
+}
+
+void skip(TrialRun& run, int count) {
+  Sample sample;
+  for (int i = 0; i < count; ++i) ASSERT_TRUE(run.next(sample));
+}
+
+TEST(TrialRun, UndisturbedIsThePlainTrialBitForBit) {
+  const Scene scene = small_scene::load();
+  Simulation simulation(scene);
+  Sampler sampler(simulation, kInterval);
+  TrialRun run(scene, kInterval);
+  Sample expected, sample;
+  int count = 0;
+  while (sampler.next(expected)) {
+    ASSERT_EQ(run.next_time(), std::min(count * kInterval, run.next_time()));
+    ASSERT_TRUE(run.next(sample));
+    EXPECT_EQ(sample.time, expected.time);
+    EXPECT_TRUE(same_bits(sample.state, expected.state)) << sample.time;
+    EXPECT_EQ(run.time(), sample.time);
+    ++count;
+  }
+  EXPECT_TRUE(run.ended());
+  EXPECT_FALSE(run.next(sample));
+  EXPECT_GT(count, 100);
+}
+
+TEST(TrialRun, ChangeEntersAtTheLastSample) {
+  const Scene scene = small_scene::load();
+  TrialRun plain(scene, kInterval), changed(scene, kInterval);
+  Sample a, b;
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(plain.next(a) && changed.next(b));
+    ASSERT_TRUE(same_bits(a.state, b.state));
+  }
+  std::vector<Excitation> excitations = scene.excitations;
+  excitations[0].amplitude = 0.0;
+  changed.set_excitations(excitations);
+  ASSERT_TRUE(plain.next(a) && changed.next(b));
+  EXPECT_EQ(a.time, b.time);
+  // A force that is missing for dt leaves no more than dt F behind in the velocity.
+  EXPECT_NE(a.state.vy, b.state.vy);
+  EXPECT_NEAR(a.state.vy, b.state.vy, kInterval * 1.0);
+}
+
+TEST(TrialRun, SameExcitationsAgainChangeNothingButRoundoff) {
+  const Scene scene = small_scene::load();
+  TrialRun plain(scene, kInterval), changed(scene, kInterval);
+  skip(plain, 30);
+  skip(changed, 30);
+  changed.set_excitations(scene.excitations);
+  Sample a, b;
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(plain.next(a) && changed.next(b));
+    EXPECT_NEAR(a.state.y, b.state.y, 1e-9);
+  }
+}
+
+TEST(TrialRun, PhaseIsContinuousWhenTheFrequencyChanges) {
+  // No contact: y'' + y = sin(theta). Over one short interval the force is continuous, so vy has no kink: its second
+  // difference stays small, while a jump of the phase by order 1 would give kInterval * order 1.
+  Scene scene = small_scene::load();
+  scene.gripper.pressing_force.reset();
+  scene.gripper.anchor_y = scene.initial.y = 6.0;
+  scene.initial.phi = 0.0;
+  TrialRun run(scene, kInterval);
+  std::vector<double> vy;
+  Sample sample;
+  std::vector<Excitation> excitations = scene.excitations;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_TRUE(run.next(sample));
+    vy.push_back(sample.state.vy);
+    if (i == 40) {
+      excitations[0].frequency = 17.0;
+      run.set_excitations(excitations);
+    }
+  }
+  for (std::size_t i = 2; i < vy.size(); ++i) {
+    EXPECT_LT(std::abs(vy[i] - 2.0 * vy[i - 1] + vy[i - 2]), kInterval * kInterval * (20.0 + 6.0)) << i;
+  }
+}
+
+TEST(TrialRun, PressingForceMovesTheAnchor) {
+  const Scene scene = small_scene::load();
+  TrialRun weak(scene, kInterval), strong(scene, kInterval);
+  skip(weak, 10);
+  skip(strong, 10);
+  strong.set_pressing_force(5.0);
+  Sample a, b;
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(weak.next(a) && strong.next(b));
+  EXPECT_LT(b.state.y, a.state.y);
+}
+
+TEST(TrialRun, RestartRepeatsTheTrialBitForBit) {
+  TrialRun run(small_scene::load(), kInterval);
+  const std::vector<Sample> first = all_samples(run);
+  run.restart();
+  EXPECT_FALSE(run.ended());
+  const std::vector<Sample> second = all_samples(run);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) ASSERT_TRUE(same_bits(first[i].state, second[i].state));
+}
+
+TEST(TrialRun, RestartIsAsIfTheSceneHadTheChangedValues) {
+  TrialRun run(small_scene::load(), kInterval);
+  skip(run, 10);
+  std::vector<Excitation> excitations = small_scene::load().excitations;
+  excitations[0].amplitude = 1.5;
+  run.set_excitations(excitations);
+  run.set_pressing_force(0.3);
+  skip(run, 10);
+  run.restart();
+  TrialRun expected(small_scene::load(small_scene::path, {"excitation.amplitude=1.5", "gripper.pressing_force=0.3"}),
+                    kInterval);
+  Sample a, b;
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(run.next(a) && expected.next(b));
+    ASSERT_TRUE(same_bits(a.state, b.state));
+  }
+}
+
+TEST(TrialRun, RestartThatIsImpossibleLeavesTheTrialAsItWas) {
+  TrialRun run(small_scene::load(), kInterval);
+  skip(run, 10);
+  run.set_pressing_force(-5.0);  // pulled up: no equilibrium on the base
+  EXPECT_THROW(run.restart(), SceneError);
+  Sample sample;
+  EXPECT_TRUE(run.next(sample));
+  EXPECT_EQ(sample.time, 10 * kInterval);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
