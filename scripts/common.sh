@@ -1,10 +1,11 @@
+# shellcheck shell=bash disable=SC2034  # the groups of packages are used by name
 # Shell functions that scripts/demo and scripts/test share. Sourced by bash scripts that run with `set -euo pipefail`.
 #
-# Two roads lead to ROS 1, and what is found decides: where there is a /opt/ros/noetic it is used, and rosdep installs what
-# package.xml names; elsewhere Debian's own packages of ROS are installed with apt.
+# Two roads lead to ROS 1, and what is found decides: where there is a /opt/ros/noetic it is used, and rosdep installs
+# what package.xml names; elsewhere Debian's own packages of ROS are installed with apt.
 
-# Another python3 in front of the system's (pyenv, conda) has no ROS modules, and ROS workspaces or compiler settings of the
-# calling shell must not mix with this build.
+# Another python3 in front of the system's (pyenv, conda) has no ROS modules, and ROS workspaces or compiler settings of
+# the calling shell must not mix with this build.
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 unset PYTHONHOME PYTHONPATH LD_LIBRARY_PATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_MASTER_URI ROS_NAMESPACE
 if [ -n "${CONDA_PREFIX:-}" ]; then unset CC CXX CFLAGS CXXFLAGS CPPFLAGS LDFLAGS; fi
@@ -22,7 +23,8 @@ build_packages=(
 )
 run_packages=(
   rosbash python3-roslaunch python3-rospy python3-rostopic python3-rosnode python3-rosservice python3-rosmsg
-  python3-rosbag python3-rosparam python3-rospkg python3-yaml rosbag tf2-tools python3-matplotlib
+  python3-rosbag python3-rosparam python3-rospkg python3-yaml tf2-tools python3-matplotlib
+  python3-std-msgs python3-std-srvs python3-geometry-msgs python3-tf2-msgs python3-visualization-msgs
 )
 test_packages=(librostest-dev python3-rostest libgtest-dev libgmock-dev)
 rviz_packages=(rviz)
@@ -33,22 +35,22 @@ die() { printf '\nerror: %s\n' "$*" >&2; exit 1; }
 
 on_noetic() { [ -f "$noetic/setup.bash" ]; }
 
+# Ends with the words of $1 unless there is a way to be root; asks for sudo's password where it wants one.
+require_root() {
+  [ "$(id -u)" -eq 0 ] || { command -v sudo >/dev/null && sudo -v; } || die "$1"
+}
+
 # Runs a command as root: directly, or with sudo.
 as_root() {
-  if [ "$(id -u)" -eq 0 ]; then
-    "$@"
-  elif command -v sudo >/dev/null; then
-    sudo "$@"
-  else
-    die "this needs root, and there is no sudo. As root, run: $*"
-  fi
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
 # Prints those of the packages that are not installed.
 missing_packages() {
   local package
   for package in "$@"; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || printf '%s\n' "$package"
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] ||
+      printf '%s\n' "$package"
   done
 }
 
@@ -57,14 +59,15 @@ install_packages() {
   local missing
   mapfile -t missing < <(missing_packages "$@")
   if [ ${#missing[@]} -eq 0 ]; then
-    note "nothing is missing"
+    note "everything is there"
     return
   fi
   note "missing: ${missing[*]}"
+  require_root "installing needs root or sudo. As root, run: apt-get install -y --no-install-recommends ${missing[*]}"
   mkdir -p "$root/build/logs"
   local log="$root/build/logs/apt.log"
-  note "installing with apt-get; its messages go to ${log#"$root"/}"
-  if ! { as_root apt-get update &&
+  note "installing with apt-get, which takes some minutes; its messages go to ${log#"$root"/}"
+  if ! { as_root apt-get update || true;  # a broken source need not matter
          as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"; } \
        >"$log" 2>&1 </dev/null; then
     tail -n 20 "$log" >&2
@@ -73,15 +76,25 @@ install_packages() {
   note "installed"
 }
 
+# roslaunch ends where the name localhost means nothing, as in a system fresh from debootstrap.
+name_localhost() {
+  if ! getent ahostsv4 localhost >/dev/null; then
+    note "nothing tells the address of localhost, which ROS asks for: adding it to /etc/hosts"
+    require_root "/etc/hosts needs the line: 127.0.0.1 localhost"
+    echo "127.0.0.1 localhost" | as_root tee -a /etc/hosts >/dev/null
+  fi
+}
+
 # Brings everything that the given groups of packages hold: install_dependencies build run [test] [rviz]
 install_dependencies() {
-  say "Looking for what is needed to $(printf '%s, ' "$@" | sed 's/, $//; s/\(.*\), /\1 and /')"
+  say "Looking for the packages that are needed to: $(printf '%s, ' "$@" | sed 's/, $//; s/rviz/show (rviz)/')"
+  name_localhost
   if on_noetic; then
     note "ROS Noetic is in $noetic: rosdep installs what package.xml names"
     install_with_rosdep
     return
   fi
-  command -v apt-get >/dev/null || die "no /opt/ros/noetic and no apt-get: this script knows Debian 12 and ROS Noetic only"
+  command -v apt-get >/dev/null || die "no $noetic and no apt-get: this script knows Debian 12 and ROS Noetic only"
   local group packages=()
   for group in "$@"; do
     local -n group_packages="${group}_packages"
@@ -133,11 +146,17 @@ build_targets() {
   mkdir -p "$root/build/logs"
   run_logged "$root/build/logs/configure.log" cmake -S "$root" -B "$root/build" -DCATKIN_DEVEL_PREFIX="$root/devel" \
     -DCMAKE_INSTALL_PREFIX="$root/install" "${options[@]}"
-  cmake --build "$root/build" -j "$(parallel_jobs)" --target "$@" | grep -E '^\[.*(Building CXX|Linking)|warning|rror' ||
-    [ "${PIPESTATUS[0]}" -eq 0 ] || die "the build failed (see above)"
+  local log="$root/build/logs/build.log"
+  if ! cmake --build "$root/build" -j "$(parallel_jobs)" --target "$@" 2>&1 | tee "$log" | show_progress; then
+    grep -A 8 -m 5 -E 'error|Error' "$log" >&2 || true
+    die "the build failed (see above, and all of it in ${log#"$root"/})"
+  fi
   source_setup "$root/devel/setup.bash"
   use_local_ros
 }
+
+# Passes on of what make says that which tells how far it is, and warnings.
+show_progress() { sed -n -u -E '/^\[ *[0-9]+%\] (Building CXX|Linking)|warning:/p'; }
 
 # Runs a command with its messages in a file; shows the end of them if it fails.
 run_logged() {

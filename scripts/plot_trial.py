@@ -3,9 +3,9 @@
 
 usage: plot_trial.py TRIAL PICTURE [--title TEXT]
 
-TRIAL is a CSV file of `align trial --csv`, or a bag: one that `align trial --bag` wrote, or a recording of aligner_node.
-A CSV file is drawn in its own units, a bag in dimensionless numbers. In a bag's picture each force is the largest one
-since the message before.
+TRIAL is a CSV file of `align trial --csv`, or a bag: one that `align trial --bag` wrote, or a recording of
+aligner_node. A CSV file is drawn in its own units, a bag in dimensionless numbers. In a bag's picture each force is
+the largest one since the message before.
 """
 
 import argparse
@@ -84,7 +84,8 @@ def draw(trial, path):
     axes[0].annotate("axis of the slot", (0.995, 0.0), xycoords=("axes fraction", "data"), xytext=(0, 3),
                      textcoords="offset points", color=GREY, ha="right", fontsize=8)
     forces = axes[3]
-    for values, color, label in ((trial.n1, BLUE, "$n_1$, edge a1 (right)"), (trial.n2, ORANGE, "$n_2$, edge a2 (left)")):
+    curves = ((trial.n1, BLUE, "$n_1$, edge a1 (right)"), (trial.n2, ORANGE, "$n_2$, edge a2 (left)"))
+    for values, color, label in curves:
         forces.fill_between(trial.t, values, color=color, alpha=0.25, linewidth=0)
         forces.plot(trial.t, values, color=color, linewidth=0.9, label=label)
     forces.set_ylim(bottom=0.0)

@@ -47,7 +47,7 @@ class Report {
 
   /// "7.1423 (35.71 ms)"
   std::string in_line(double value, ReadingUnit ReadingUnits::*quantity) const {
-    std::string text = one(value, systems_.front().*quantity, "%.6g");
+    std::string text = one(value, systems_.front().*quantity, "%.5g");
     if (systems_.size() > 1) text += " (" + one(value, systems_.back().*quantity, "%.4g") + ")";
     return text;
   }
@@ -106,7 +106,7 @@ std::string outcome_text(const TrialResult& result, const Report& report) {
                                : std::string());
     case Outcome::jammed: return "jammed: at rest in the slot before it was inserted";
     case Outcome::stalled: return "stalled: the motion has settled without alignment";
-    case Outcome::time_limit: return "time limit reached without alignment";
+    case Outcome::time_limit: return "not aligned within the time limit";
     case Outcome::failed: return "failed: " + result.failure;
   }
   return to_string(result.outcome);

@@ -176,31 +176,22 @@ class Recorder {
 
   bool wanted() const { return csv_ || bag_; }
 
-  /// Throws OutputError.
+  /// Throws std::runtime_error.
   void write(const Sample& sample) {
     if (csv_) csv_->write(sample);
-    if (bag_) to_bag([&] { bag_->write(sample); });
+    if (bag_) bag_->write(sample);
   }
 
-  /// Throws OutputError.
+  /// Throws std::runtime_error.
   void finish(const TrialResult& result) {
     if (csv_) csv_->finish();
     if (bag_) {
-      to_bag([&] { bag_->finish(result); });
+      bag_->finish(result);
       bag_path_->commit();
     }
   }
 
  private:
-  template <class Action>
-  void to_bag(const Action& action) {
-    try {
-      action();
-    } catch (const std::exception& error) {
-      throw OutputError(bag_path_->path(), error.what());
-    }
-  }
-
   std::unique_ptr<CsvWriter> csv_;
   std::unique_ptr<OutputPath> bag_path_;
   std::unique_ptr<BagWriter> bag_;
