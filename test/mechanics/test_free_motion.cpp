@@ -1,0 +1,264 @@
+// The closed forms of flight against the matrix exponential. Position, velocity, a constant, the time and the sine and
+// cosine of every drive make one linear system z' = A z, whatever the damping; exp(A t) in 113 bits is its solution.
+#include "mechanics/free_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../support/quad.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::Quad;
+using test::QuadMatrix;
+
+struct Motion {
+  double q, v;
+};
+
+Axis axis_of(double inertia, double damping, double stiffness, double anchor) {
+  Axis axis;
+  axis.moves = true;
+  axis.inertia = inertia;
+  axis.inverse_inertia = 1.0 / inertia;
+  axis.damping = damping;
+  axis.stiffness = stiffness;
+  axis.anchor = anchor;
+  return axis;
+}
+
+DriveForm constant(double value, double slope = 0.0) {
+  DriveForm form;
+  form.constant = value;
+  form.slope = slope;
+  return form;
+}
+
+DriveForm sine(double amplitude, double frequency, double phase) {
+  DriveForm form;
+  form.amplitude = amplitude;
+  form.frequency = frequency;
+  form.sin_phase = std::sin(phase);
+  form.cos_phase = std::cos(phase);
+  return form;
+}
+
+/// m v' = constant + slope t + sum of sines - h v - k (q - anchor), solved as z' = A z.
+Motion exponential_solution(const Axis& axis, double q, double v, double force, const std::vector<DriveForm>& forms,
+                            double t) {
+  // z = (q, v, 1, t, s_1, c_1, s_2, c_2, ...), s = A sin(nu t + phase), c = A cos(nu t + phase)
+  const std::size_t n = 4 + 2 * forms.size();
+  QuadMatrix a(n, std::vector<Quad>(n, 0));
+  std::vector<Quad> z(n, 0);
+  const Quad m = axis.inertia;
+  a[0][1] = 1;
+  a[1][0] = -Quad(axis.stiffness) / m;
+  a[1][1] = -Quad(axis.damping) / m;
+  a[1][2] = (Quad(axis.stiffness) * Quad(axis.anchor) + Quad(force)) / m;
+  a[3][2] = 1;
+  z[0] = q;
+  z[1] = v;
+  z[2] = 1;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const DriveForm& form = forms[i];
+    const std::size_t s = 4 + 2 * i, c = s + 1;
+    a[1][2] += Quad(form.constant) / m;
+    a[1][3] += Quad(form.slope) / m;
+    a[1][s] = 1 / m;
+    a[s][c] = form.frequency;
+    a[c][s] = -Quad(form.frequency);
+    z[s] = Quad(form.amplitude) * Quad(form.sin_phase);
+    z[c] = Quad(form.amplitude) * Quad(form.cos_phase);
+  }
+  for (auto& row : a)
+    for (Quad& entry : row) entry *= t;
+  const QuadMatrix e = test::exponential(a);
+  Quad end[2] = {0, 0};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < n; ++j) end[i] += e[i][j] * z[j];
+  return {static_cast<double>(end[0]), static_cast<double>(end[1])};
+}
+
+struct Load {
+  std::string name;
+  std::vector<DriveForm> forms;
+  double force;
+};
+
+const std::vector<Load>& loads() {
+  static const std::vector<Load> all = {
+      {"free", {}, 0.0},
+      {"constant force", {constant(0.7)}, -0.3},
+      {"growing force", {constant(-0.4, 1.3)}, 0.0},
+      {"one sine", {sine(1.0, 20.0, 0.4)}, 0.0},
+      {"sines, slope and weight", {sine(1.0, 20.0, 0.4), sine(-0.3, 7.7, 2.0), sine(0.2, 0.31, -1.0), constant(0.2, -0.6)}, -0.5},
+  };
+  return all;
+}
+
+/// Compares at time t. The digits that may be lost: `gain` of them to cancelling terms, and those of the phase w t, since
+/// the axis' own frequency w is a rounded number.
+void expect_motion(const FreeMotion& motion, const Motion& expected, const Axis& axis, double t, double gain) {
+  double q = 0.0, v = 0.0;
+  motion.at(t, q, v);
+  const double w = std::sqrt(axis.stiffness / axis.inertia);
+  const double size = 1.0 + std::abs(expected.q) + std::abs(expected.v);
+  const double error = 2.2e-16 * (gain + 2.0 * w * t) * size;
+  EXPECT_NEAR(q, expected.q, error) << "t = " << t;
+  EXPECT_NEAR(v, expected.v, error * (1.0 + w)) << "t = " << t;
+}
+
+enum class Slopes { with, without };
+
+/// All loads and many times on one axis.
+void expect_solution(const Axis& axis, double longest, Slopes slopes = Slopes::with) {
+  const double q0 = 0.83, v0 = -0.37;
+  for (const Load& load : loads()) {
+    SCOPED_TRACE(load.name);
+    if (slopes == Slopes::without && !load.forms.empty() && load.forms.back().slope != 0.0) continue;
+    FreeMotion motion(load.forms.size());
+    motion.begin(axis, q0, v0, load.force);
+    for (const DriveForm& form : load.forms) motion.add(form);
+    motion.settle();
+    ASSERT_TRUE(motion.exact());
+    for (const double share : {0.0, 1e-9, 1e-4, 0.013, 0.21, 0.5, 1.0}) {
+      const double t = share * longest;
+      const Motion expected = exponential_solution(axis, q0, v0, load.force, load.forms, t);
+      expect_motion(motion, expected, axis, t, 1e2);
+    }
+  }
+}
+
+TEST(FreeMotion, underdamped) { expect_solution(axis_of(1.0, 0.05, 1.0, 0.6), 30.0); }
+TEST(FreeMotion, undamped) { expect_solution(axis_of(0.3, 0.0, 60.0, -0.1), 30.0); }
+TEST(FreeMotion, overdamped) { expect_solution(axis_of(0.149, 9.0, 7.3, 0.02), 30.0); }
+TEST(FreeMotion, critically_damped) { expect_solution(axis_of(1.0, 4.0, 4.0, 0.6), 20.0); }
+TEST(FreeMotion, without_stiffness) { expect_solution(axis_of(1.0, 0.8, 0.0, 0.0), 20.0); }
+TEST(FreeMotion, without_damping_and_stiffness) { expect_solution(axis_of(0.7, 0.0, 0.0, 0.0), 20.0); }
+TEST(FreeMotion, light_inertia) { expect_solution(axis_of(1e-6, 0.05, 60.0, 0.1), 1.0); }
+TEST(FreeMotion, heavy_inertia) { expect_solution(axis_of(1e3, 0.05, 60.0, 0.1), 30.0); }
+
+TEST(FreeMotion, near_critical_damping_from_both_sides) {
+  for (const double off : {1e-3, 1e-6, 1e-9, 1e-12, 3e-16})
+    for (const double sign : {1.0, -1.0}) {
+      SCOPED_TRACE(sign * off);
+      expect_solution(axis_of(1.0, 4.0 * (1.0 + sign * off), 4.0, 0.6), 20.0);
+    }
+}
+
+// The fast rate is h/m, the slow one k/h: twelve decades apart. (A growing force is followed h/k behind: too far.)
+TEST(FreeMotion, hugely_overdamped) { expect_solution(axis_of(1.0, 1e6, 1.0, 0.6), 30.0, Slopes::without); }
+
+// A soft spring is no case of its own as long as its equilibrium is not far away.
+TEST(FreeMotion, nearly_vanishing_stiffness) {
+  for (const double k : {1e-3, 1e-8, 1e-14, 1e-30}) {
+    const Axis axis = axis_of(1.0, 0.05, k, 0.2);
+    FreeMotion motion(1);
+    motion.begin(axis, 0.83, -0.37, 0.0);
+    motion.add(sine(1.0, 20.0, 0.4));
+    motion.settle();
+    ASSERT_TRUE(motion.exact());
+    for (const double t : {1e-6, 0.3, 5.0, 30.0}) {
+      const Motion expected = exponential_solution(axis, 0.83, -0.37, 0.0, {sine(1.0, 20.0, 0.4)}, t);
+      expect_motion(motion, expected, axis, t, 1e2);
+    }
+  }
+}
+
+/// exact() of an axis under one drive; when it is claimed, the claim is checked.
+bool claims_exact(const Axis& axis, const DriveForm& form, double force = 0.0) {
+  FreeMotion motion(1);
+  motion.begin(axis, 0.2, 0.1, force);
+  motion.add(form);
+  motion.settle();
+  if (!motion.exact()) return false;
+  for (const double t : {0.01, 1.0, 10.0}) {
+    const Motion expected = exponential_solution(axis, 0.2, 0.1, force, {form}, t);
+    expect_motion(motion, expected, axis, t, 1e4);
+  }
+  return true;
+}
+
+// At resonance without damping there is no steady response: the closed form must step back, at it and close to it.
+TEST(FreeMotion, steps_back_at_undamped_resonance) {
+  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
+  for (const double off : {1e-15, 1e-12, 1e-9, 1e-6, 1e-4})
+    for (const double sign : {1.0, -1.0}) {
+      EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.0 * (1.0 + sign * off), 0.3))) << sign * off;
+    }
+}
+
+TEST(FreeMotion, stays_exact_where_no_digits_are_lost) {
+  // damped resonance, and beside an undamped one
+  EXPECT_TRUE(claims_exact(axis_of(1.0, 0.05, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
+  EXPECT_TRUE(claims_exact(axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.02, 0.3)));
+  EXPECT_TRUE(claims_exact(axis_of(0.149, 1.33, 7.3, 0.0), sine(1.0, 20.0, 0.0)));
+  EXPECT_TRUE(claims_exact(axis_of(1.0, 0.05, 0.05, 0.2), constant(1.0)));
+}
+
+TEST(FreeMotion, steps_back_where_the_equilibrium_is_far_away) {
+  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 1e-9, 0.0), constant(1.0)));
+  EXPECT_FALSE(claims_exact(axis_of(1.0, 1e-9, 0.0, 0.0), constant(1.0)));
+  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 1e-9, 0.0), constant(0.0), -0.3));
+}
+
+TEST(FreeMotion, steps_back_during_a_chirp) {
+  DriveForm chirp = sine(1.0, 20.0, 0.3);
+  chirp.rate = 0.5;
+  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.05, 1.0, 0.0), chirp));
+}
+
+TEST(FreeMotion, is_claimed_only_where_it_holds_on_random_axes) {
+  std::mt19937 random(20240501);
+  std::uniform_real_distribution<double> decade(-4.0, 4.0), phase(0.0, 6.28);
+  int claimed = 0;
+  for (int i = 0; i < 150; ++i) {
+    const double m = std::pow(10.0, 0.25 * decade(random)), h = std::pow(10.0, decade(random)) * (i % 5 != 0);
+    const double k = std::pow(10.0, decade(random)) * (i % 7 != 0);
+    const double nu = std::pow(10.0, 0.5 * decade(random));
+    claimed += claims_exact(axis_of(m, h, k, 0.4), sine(1.0, nu, phase(random)), 0.2);
+  }
+  EXPECT_GT(claimed, 75);  // stepping back always would be right, and useless
+}
+
+TEST(FreeMotion, a_locked_axis_stands_still) {
+  Axis axis = axis_of(1.0, 0.1, 1.0, 0.6);
+  axis.moves = false;
+  axis.inverse_inertia = 0.0;
+  FreeMotion motion(1);
+  motion.begin(axis, 0.3, 0.0, -1.0);
+  motion.add(sine(1.0, 20.0, 0.4));
+  motion.settle();
+  double q = 1.0, v = 1.0;
+  motion.at(3.0, q, v);
+  EXPECT_EQ(q, 0.3);
+  EXPECT_EQ(v, 0.0);
+}
+
+// A new flight knows nothing of the one before it.
+TEST(FreeMotion, begins_anew) {
+  const Axis axis = axis_of(1.0, 0.05, 1.0, 0.6);
+  FreeMotion used(2), fresh(2);
+  used.begin(axis_of(1.0, 0.0, 0.0, 0.0), 5.0, 1.0, 2.0);
+  used.add(sine(1.0, 3.0, 1.0));
+  used.add(constant(0.3, 0.4));
+  used.settle();
+  for (FreeMotion* motion : {&used, &fresh}) {
+    motion->begin(axis, 0.83, -0.37, -0.2);
+    motion->add(sine(1.0, 20.0, 0.4));
+    motion->settle();
+  }
+  double q1, v1, q2, v2;
+  used.at(1.7, q1, v1);
+  fresh.at(1.7, q2, v2);
+  EXPECT_EQ(q1, q2);
+  EXPECT_EQ(v1, v2);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment

@@ -1,0 +1,242 @@
+// Statics of the part on the base: heights of first touch from the outlines, equilibria from the balance of forces and
+// from closed forms (MODEL.md "Free motion", "Settled readings"; REFERENCE.md for R1).
+#include "mechanics/statics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../support/scenes.h"
+#include "mechanics/site_rules.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::plain;
+using test::scene_of;
+
+/// Deepest penetration of any contact that the scene calls for, from above; negative: the gap. Written from the outlines.
+double penetration(const System& s, double x, double y, double phi) {
+  const double c = std::cos(phi), n = std::sin(phi);
+  double deepest = -INFINITY;
+  for (const double side : {1.0, -1.0}) {
+    if (s.contacts.edges) {
+      const double rx = side * s.slot_half_width - x, ry = -y, along = rx * c + ry * n, up = ry * c - rx * n;
+      deepest = std::max(deepest, std::min({up + s.base_distance, s.half_width - along, s.half_width + along}));
+    }
+    const double bx = x + side * s.half_width * c + s.base_distance * n;
+    const double by = y + side * s.half_width * n - s.base_distance * c;
+    if (s.contacts.corners && std::abs(bx) >= s.slot_half_width) deepest = std::max(deepest, -by);
+    if (s.has_floor && std::abs(bx) < s.slot_half_width) deepest = std::max(deepest, -s.floor_depth - by);
+  }
+  return deepest;
+}
+
+System system_of(const std::string& contacts) {
+  System system = make_system(scene_of(plain));
+  system.contacts.edges = contacts.find('e') != std::string::npos;
+  system.contacts.corners = contacts.find('c') != std::string::npos;
+  system.has_floor = system.contacts.walls = contacts.find('w') != std::string::npos;
+  system.floor_depth = 0.4;
+  return system;
+}
+
+// At y_touch something is touched, just above it nothing is, just below it the touch is real.
+TEST(TouchHeight, is_where_the_first_contact_closes) {
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (const std::string contacts : {"e", "c", "ec", "w", "ecw"}) {
+    const System system = system_of(contacts);
+    int found = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double x = 0.9 * u(random), phi = (i % 3 == 0 ? 0.01 : 1.2) * u(random);
+      const std::optional<double> y = touch_height(system, x, phi);
+      if (!y) {
+        // nothing to touch however far down: then only sides that are vertical or the slot's air are below
+        for (double below = 2.0; below > -1.0; below -= 0.05) ASSERT_LE(penetration(system, x, below, phi), 0.0) << contacts;
+        continue;
+      }
+      ++found;
+      EXPECT_NEAR(penetration(system, x, *y, phi), 0.0, 1e-14) << contacts << " x " << x << " phi " << phi;
+      for (const double above : {1e-9, 1e-4, 0.03, 0.5, 3.0})
+        EXPECT_LT(penetration(system, x, *y + above, phi), 0.0) << contacts << " x " << x << " phi " << phi;
+      EXPECT_GT(penetration(system, x, *y - 1e-9, phi), 0.0) << contacts << " x " << x << " phi " << phi;
+    }
+    EXPECT_GT(found, 100) << contacts;
+  }
+}
+
+// Flat over the edge A1: y = b. Tilted: y cos phi = b - (l - x) sin phi.
+TEST(TouchHeight, of_an_edge_on_the_bottom_face) {
+  const System s = system_of("e");
+  EXPECT_NEAR(*touch_height(s, 0.2, 0.0), s.base_distance, 1e-16);
+  const double phi = 0.02;
+  EXPECT_NEAR(*touch_height(s, 0.2, phi) * std::cos(phi), s.base_distance - (s.slot_half_width - 0.2) * std::sin(phi), 1e-15);
+}
+
+// In the slot, flat: both edges pass beside the part.
+TEST(TouchHeight, is_none_above_the_slot) {
+  EXPECT_FALSE(touch_height(system_of("e"), 0.0, 0.0));
+  EXPECT_FALSE(touch_height(system_of("c"), 0.0, 0.0));
+  const System walls = system_of("w");
+  EXPECT_NEAR(*touch_height(walls, 0.0, 0.0), walls.base_distance - walls.floor_depth, 1e-16);
+}
+
+TEST(TouchHeight, does_not_know_left_from_right) {
+  std::mt19937 random(32);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const System system = system_of("ecw");
+  for (int i = 0; i < 200; ++i) {
+    const double x = 0.9 * u(random), phi = u(random);
+    const auto y = touch_height(system, x, phi), mirrored = touch_height(system, -x, -phi);
+    ASSERT_EQ(y.has_value(), mirrored.has_value());
+    if (!y) continue;
+    EXPECT_EQ(*y, *mirrored);
+  }
+}
+
+TEST(PressingForce, sets_the_anchor_below_the_height_of_touch) {
+  const Scene scene = scene_of(plain);
+  const System s = make_system(scene);
+  EXPECT_NEAR(s.y.anchor, *touch_height(s, scene.initial.x, *scene.initial.phi) - 0.27, 1e-16);
+  // neither weight nor the height of the start is part of it
+  const System heavy = make_system(scene_of(plain, {"weight=0.4", "initial.y=1.3"}));
+  EXPECT_EQ(heavy.y.anchor, s.y.anchor);
+}
+
+TEST(PressingForce, without_a_height_of_touch_is_refused) {
+  for (const char* setting : {"initial.x=0.0", "initial.x=0.01"})
+    EXPECT_THROW(make_system(scene_of(plain, {setting, "initial.phi=0.0"})), SceneError);
+  EXPECT_NO_THROW(make_system(
+      scene_of(plain, {"initial.x=0.0", "initial.phi=0.0", "gripper.pressing_force=null", "gripper.anchor.y=0.5"})));
+}
+
+TEST(Equilibrium, without_anything_to_rest_on_is_refused) {
+  EXPECT_THROW(make_system(scene_of(plain, {"initial.x=0.0", "initial.phi=0.0", "initial.y=null",
+                                            "gripper.pressing_force=null", "gripper.anchor.y=0.5"})), SceneError);
+}
+
+/// Balance of all forces at rest, written from MODEL.md with every contact point by itself: x, y and moment.
+/// Friction enters as one tangential force t at the contact `on`.
+struct Balance {
+  double x, y, moment;
+  int loaded;
+  double normal;
+};
+Balance balance(const System& s, const State& q, double t) {
+  Balance b{-s.x.stiffness * (q.x - s.x.anchor), -(q.y - s.y.anchor) - s.weight, -s.phi.stiffness * (q.phi - s.phi.anchor), 0, 0};
+  const double c = std::cos(q.phi), n = std::sin(q.phi);
+  const auto push = [&](double px, double py, double nx, double ny, double depth) {
+    const double force = (s.stiffness_y * ny * ny + s.stiffness_x * nx * nx) * depth;
+    const double fx = force * nx + t * ny, fy = force * ny - t * nx;
+    b.x += fx;
+    b.y += fy;
+    b.moment += (px - q.x) * fy - (py - q.y) * fx;
+    b.normal = force;
+    ++b.loaded;
+  };
+  for (const double side : {1.0, -1.0}) {
+    const double ax = side * s.slot_half_width;
+    const double along = (ax - q.x) * c - q.y * n, up = -q.y * c - (ax - q.x) * n;
+    // the nearest face of the part
+    const double bottom = up + s.base_distance, right = s.half_width - along, left = s.half_width + along;
+    const double depth = std::min({bottom, right, left});
+    if (s.contacts.edges && depth > 0.0) {
+      if (depth == bottom) push(ax, 0.0, -n, c, depth);
+      else if (depth == right) push(ax, 0.0, -c, -n, depth);
+      else push(ax, 0.0, c, n, depth);
+    }
+    const double bx = q.x + side * s.half_width * c + s.base_distance * n;
+    const double by = q.y + side * s.half_width * n - s.base_distance * c;
+    if (s.contacts.corners && by < 0.0 && std::abs(bx) - s.slot_half_width > -by) push(bx, by, 0.0, 1.0, -by);
+  }
+  return b;
+}
+
+Scene at_rest(const std::vector<std::string>& more) {
+  std::vector<std::string> settings = {"initial.y=null", "initial.phi=null"};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return scene_of(plain, settings);
+}
+
+TEST(Equilibrium, loads_vanish_without_friction) {
+  for (const char* contacts : {"contacts=[edges]", "contacts=[edges, corners]"})
+    for (const char* x : {"initial.x=0.21", "initial.x=0.4", "initial.x=-0.3", "initial.x=0.1"})
+      for (const char* tilt : {"gripper.anchor.phi=0.02", "gripper.anchor.phi=-0.05"}) {
+        const System s = make_system(at_rest({"friction=null", contacts, x, tilt, "weight=0.1"}));
+        const Balance b = balance(s, s.start, 0.0);
+        EXPECT_GE(b.loaded, 1);
+        // the heights are found to the last digit: an error of 1e-16 times the base's stiffness
+        EXPECT_NEAR(b.y, 0.0, 4e-12) << contacts << x << tilt;
+        EXPECT_NEAR(b.moment, 0.0, 2e-12) << contacts << x << tilt;
+      }
+}
+
+// One contact and set-valued friction: it carries the horizontal force too, as far as f N.
+TEST(Equilibrium, friction_holds_the_part_in_place) {
+  for (const char* x : {"initial.x=0.21", "initial.x=0.35", "initial.x=-0.3"}) {
+    const System s = make_system(at_rest({x, "friction.coefficient=0.6"}));
+    const Balance without = balance(s, s.start, 0.0);
+    ASSERT_EQ(without.loaded, 1);
+    // the T that makes the horizontal force vanish
+    const double t = -without.x / std::cos(s.start.phi);
+    ASSERT_LE(std::abs(t), 0.6 * without.normal);
+    const Balance b = balance(s, s.start, t);
+    EXPECT_NEAR(b.x, 0.0, 4e-12);
+    EXPECT_NEAR(b.y, 0.0, 4e-12);
+    EXPECT_NEAR(b.moment, 0.0, 2e-12);
+  }
+}
+
+// REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l - x).
+TEST(Equilibrium, of_r1_is_its_closed_form) {
+  const Scene scene = scene_of(plain, {"initial.x=0.2", "gripper.anchor.x=0.2", "gripper.anchor.phi=0.0", "friction.coefficient=0.2",
+                                       "gripper.stiffness.phi=60", "gripper.pressing_force=0.2", "initial.y=null",
+                                       "initial.phi=null", "base.stiffness={y: 2500}"});
+  const System s = make_system(scene);
+  // the base gives way by F/k, and by that the axial spring unloads: F = f0 - F/k
+  const double force = 0.2 / (1.0 + 1.0 / 2500.0);
+  EXPECT_NEAR(s.start.y - s.y.anchor, force, 1e-14);
+  EXPECT_NEAR(s.start.phi, force * (s.slot_half_width - 0.2) / 60.0, 1e-14);
+}
+
+// The regularised law gives no force at rest: the normal force alone, with its horizontal part, makes the moment.
+TEST(Equilibrium, regularised_friction_holds_nothing) {
+  const System smooth = make_system(at_rest({"friction.regularization=2.0e-3"}));
+  const System none = make_system(at_rest({"friction=null"}));
+  EXPECT_EQ(smooth.start.phi, none.start.phi);
+  EXPECT_EQ(smooth.start.y, none.start.y);
+  EXPECT_NEAR(balance(smooth, smooth.start, 0.0).moment, 0.0, 2e-12);
+}
+
+// What is given stays.
+TEST(Equilibrium, leaves_what_the_scene_gives) {
+  const System y_free = make_system(scene_of(plain, {"initial.y=null"}));
+  EXPECT_EQ(y_free.start.phi, 0.02);
+  EXPECT_NEAR(static_load(y_free, y_free.start.x, y_free.start.y, 0.02).force_y, 0.0, 4e-12);
+  const System phi_free = make_system(scene_of(plain, {"initial.phi=null", "initial.y=0.91"}));
+  EXPECT_EQ(phi_free.start.y, 0.91);
+}
+
+TEST(Equilibrium, velocities_of_locked_motions_are_none) {
+  const System s = make_system(scene_of(plain, {"initial.vx=0.3", "initial.omega=0.4", "initial.vy=0.5", "part.inertia=null",
+                                                "gripper.stiffness.x=null"}));
+  EXPECT_EQ(s.start.vx, 0.0);
+  EXPECT_EQ(s.start.omega, 0.0);
+  EXPECT_EQ(s.start.vy, 0.5);
+}
+
+// Mirrored scenes rest in mirrored places.
+TEST(Equilibrium, is_mirrored_with_the_scene) {
+  const System right = make_system(at_rest({"initial.x=0.3", "gripper.anchor.x=0.25", "gripper.anchor.phi=0.01"}));
+  const System left = make_system(at_rest({"initial.x=-0.3", "gripper.anchor.x=-0.25", "gripper.anchor.phi=-0.01"}));
+  EXPECT_EQ(right.start.y, left.start.y);
+  EXPECT_EQ(right.start.phi, -left.start.phi);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment

@@ -1,0 +1,136 @@
+// A run that cannot go on ends as failed, with a reason and the last good state: never silent, never for ever.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "../support/runs.h"
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::run;
+using test::scene_of;
+
+bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
+
+TEST(Failures, the_step_limit_ends_the_trial) {
+  for (const long limit : {1L, 2L, 10L, 50L}) {
+    Scene scene = scene_of(test::plain);
+    scene.solver.step_limit = limit;
+    const TrialResult result = run(scene);
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.failure.find("step limit"), std::string::npos) << result.failure;
+    EXPECT_NE(result.failure.find(std::to_string(limit)), std::string::npos) << result.failure;
+    EXPECT_LE(result.counts.steps, limit + 1);
+    EXPECT_TRUE(is_finite(result.final_state));
+  }
+}
+
+TEST(Failures, an_ended_trial_stays_ended) {
+  Scene scene = scene_of(test::plain);
+  scene.solver.step_limit = 5;
+  Simulation simulation(scene);
+  while (simulation.advance()) {
+  }
+  EXPECT_TRUE(simulation.ended());
+  EXPECT_FALSE(simulation.advance());
+  EXPECT_FALSE(simulation.advance());
+  EXPECT_EQ(simulation.result().outcome, Outcome::failed);
+}
+
+/// Runs a scene with numbers that no loader would pass in a process of its own, which an alarm ends if it hangs.
+/// Exit status: 0 an outcome in finite numbers, 1 failed with a reason, else a fault.
+int in_own_process(Scene scene) {
+  alarm(10);
+  scene.solver.step_limit = 20000;
+  const TrialResult result = run(scene);
+  if (result.outcome == Outcome::failed) return result.failure.empty() ? 2 : 1;
+  if (result.outcome == Outcome::running) return 3;
+  return is_finite(result.final_state) ? 0 : 4;
+}
+
+bool ended(int status) { return WIFEXITED(status) && WEXITSTATUS(status) <= 1; }
+bool failed(int status) { return WIFEXITED(status) && WEXITSTATUS(status) == 1; }
+
+struct Absurdity {
+  std::string name;
+  std::function<void(Scene&, double)> make;
+};
+
+TEST(FailuresDeathTest, absurd_numbers_end_the_trial) {
+  const std::vector<Absurdity> absurdities = {
+      {"stiffness", [](Scene& s, double huge) { s.base.stiffness_x = s.base.stiffness_y = huge; }},
+      {"damping", [](Scene& s, double huge) { s.base.damping_x = s.base.damping_y = huge; }},
+      {"inertia", [](Scene& s, double huge) { s.gripper.phi.inertia = 1.0 / huge; }},
+      {"amplitude", [](Scene& s, double huge) { s.excitations[0].amplitude = huge; }},
+      {"frequency", [](Scene& s, double huge) { s.excitations[0].frequency = huge; }},
+      {"square", [](Scene& s, double huge) { s.excitations[0].waveform = Waveform::square, s.excitations[0].frequency = huge; }},
+      {"velocity", [](Scene& s, double huge) { s.initial.vx = huge; }},
+      {"turn", [](Scene& s, double huge) { s.initial.omega = huge; }},
+      {"gripper stiffness", [](Scene& s, double huge) { s.gripper.x.stiffness = huge; }},
+      {"gripper damping", [](Scene& s, double huge) { s.gripper.phi.damping = huge; }},
+      {"weight", [](Scene& s, double huge) { s.weight = huge; }},
+      {"friction", [](Scene& s, double huge) { s.friction->coefficient = huge; }},
+      {"regularization", [](Scene& s, double huge) { s.friction->regularization = 1.0 / huge; }},
+      {"time limit", [](Scene& s, double huge) { s.trial.time_limit = huge; }},
+  };
+  for (const double huge : {1e9, 1e20, 1e100, 1e300})
+    for (const Absurdity& absurdity : absurdities) {
+      Scene scene = scene_of(test::plain);
+      absurdity.make(scene, huge);
+      EXPECT_EXIT(std::_Exit(in_own_process(scene)), ended, "") << absurdity.name << " " << huge;
+      if (HasFailure()) return;  // an alarm takes its time
+    }
+}
+
+TEST(FailuresDeathTest, what_is_not_a_number_fails) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity}) {
+    Scene s = scene_of(test::plain);
+    s.excitations[0].amplitude = bad;
+    EXPECT_EXIT(std::_Exit(in_own_process(s)), failed, "") << "amplitude " << bad;
+    s = scene_of(test::plain);
+    s.initial.vx = bad;
+    EXPECT_EXIT(std::_Exit(in_own_process(s)), failed, "") << "velocity " << bad;
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Failures, unknown_solvers_and_too_many_excitations_are_refused) {
+  Scene s = scene_of(test::plain);
+  s.solver.name = "crystal_ball";
+  EXPECT_THROW(Simulation{s}, std::invalid_argument);
+  s = scene_of(test::plain);
+  s.excitations.assign(100, s.excitations[0]);
+  EXPECT_THROW(Simulation{s}, std::invalid_argument);
+}
+
+// Many drives of many waveforms at once are no failure.
+TEST(Failures, sixteen_excitations_are_none) {
+  Scene s = scene_of(test::plain, {"trial.time_limit=1"});
+  s.excitations.assign(16, s.excitations[0]);
+  for (std::size_t i = 0; i < 16; ++i) {
+    s.excitations[i].amplitude = 0.1;
+    s.excitations[i].waveform = i % 3 == 0 ? Waveform::sine : i % 3 == 1 ? Waveform::square : Waveform::triangle;
+    s.excitations[i].frequency = 5.0 + static_cast<double>(i);
+    s.excitations[i].direction = i % 4 == 0 ? Direction::x : Direction::y;
+  }
+  EXPECT_EQ(run(s).outcome, Outcome::time_limit) << run(s).failure;
+  // all kinks in one instant
+  for (Excitation& e : s.excitations) {
+    e.waveform = Waveform::square;
+    e.frequency = 10.0;
+  }
+  EXPECT_EQ(run(s).outcome, Outcome::time_limit) << run(s).failure;
+}
+
+}  // namespace
+}  // namespace vibratory_alignment

@@ -1,0 +1,156 @@
+// A base that recovers: after the release its deformation u follows u' = -(k/h) u, and the part meets it at d = u.
+// Checked in closed form, and against a ball integrated here in long double with the base as one more state.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../support/runs.h"
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::TimedEvent;
+using Real = long double;
+
+/// A ball on a shaken base that takes k/h = 8 to recover, longer than some of its flights.
+Scene ball(double k, double h, double amplitude, double frequency) {
+  Scene scene = test::scene_of(test::ball, {"gripper={damping: {y: 0.05}, anchor: {y: 0.6}}", "initial.y=0.95", "base.recovery=true"});
+  scene.base.stiffness_x = scene.base.stiffness_y = k;
+  scene.base.damping_x = scene.base.damping_y = h;
+  scene.excitations[0].amplitude = amplitude;
+  scene.excitations[0].frequency = frequency;
+  scene.trial.time_limit = 6.0;
+  scene.solver.tolerance = 1e-11;
+  return scene;
+}
+
+struct Ball {
+  Real y, v, u;
+};
+
+/// The same ball by classical Runge-Kutta steps, events by bisection of the step.
+class BallIntegrator {
+ public:
+  BallIntegrator(const Scene& s)
+      : k_(s.base.stiffness_y), h_(s.base.damping_y), b_(s.part.base_distance), y_a_(*s.gripper.anchor_y),
+        h_y_(s.gripper.y.damping), amplitude_(s.excitations[0].amplitude), nu_(s.excitations[0].frequency),
+        q_{*s.initial.y, 0.0L, 0.0L} {}
+
+  void run_to(Real end) {
+    const Real step = 5e-5L;
+    while (t_ < end) {
+      const Real h = std::min(step, end - t_);
+      const Ball next = stepped(h);
+      if (over(t_ + h, next)) {
+        Real low = 0.0L, high = h;
+        while (high - low > 1e-19L) {
+          const Real middle = 0.5L * (low + high);
+          (over(t_ + middle, stepped(middle)) ? high : low) = middle;
+        }
+        q_ = stepped(high);
+        t_ += high;
+        contact_ = !contact_;
+        if (contact_) touches.push_back(t_);
+        else releases.push_back(t_);
+      } else {
+        q_ = next;
+        t_ += h;
+      }
+    }
+  }
+
+  const Ball& state() const { return q_; }
+  std::vector<Real> touches, releases;
+
+ private:
+  Ball rate(Real t, const Ball& q) const {
+    const Real depth = b_ - q.y;
+    Real force = -(q.y - y_a_) - h_y_ * q.v + amplitude_ * std::sin(nu_ * t);
+    if (contact_) force += k_ * depth - h_ * q.v;
+    return {q.v, force, contact_ ? -q.v : -k_ / h_ * q.u};  // in contact the base moves with the ball
+  }
+
+  /// The contact ends where its force does, the flight where the ball meets the base.
+  bool over(Real, const Ball& q) const { return contact_ ? k_ * (b_ - q.y) - h_ * q.v < 0.0L : b_ - q.y > q.u; }
+
+  Ball stepped(Real h) const {
+    const auto add = [](const Ball& a, const Ball& b, Real s) { return Ball{a.y + s * b.y, a.v + s * b.v, a.u + s * b.u}; };
+    Ball start = q_;
+    if (contact_) start.u = b_ - q_.y;
+    const Ball k1 = rate(t_, start), k2 = rate(t_ + 0.5L * h, add(start, k1, 0.5L * h));
+    const Ball k3 = rate(t_ + 0.5L * h, add(start, k2, 0.5L * h)), k4 = rate(t_ + h, add(start, k3, h));
+    return {start.y + h / 6.0L * (k1.y + 2.0L * k2.y + 2.0L * k3.y + k4.y),
+            start.v + h / 6.0L * (k1.v + 2.0L * k2.v + 2.0L * k3.v + k4.v),
+            start.u + h / 6.0L * (k1.u + 2.0L * k2.u + 2.0L * k3.u + k4.u)};
+  }
+
+  Real k_, h_, b_, y_a_, h_y_, amplitude_, nu_;
+  Real t_ = 0.0L;
+  Ball q_;
+  bool contact_ = false;
+};
+
+void expect_same(const Scene& scene) {
+  BallIntegrator expected(scene);
+  expected.run_to(scene.trial.time_limit);
+  std::vector<double> touches, releases;
+  for (const TimedEvent& e : test::events_of(scene, scene.trial.time_limit)) {
+    // re-loading of a base that is still deformed is a contact of the same ball
+    if (e.event.kind == EventKind::touch || e.event.kind == EventKind::reload) touches.push_back(e.time);
+    if (e.event.kind == EventKind::release) releases.push_back(e.time);
+  }
+  ASSERT_EQ(touches.size(), expected.touches.size());
+  ASSERT_EQ(releases.size(), expected.releases.size());
+  ASSERT_GE(touches.size(), 4u);
+  for (std::size_t i = 0; i < touches.size(); ++i) EXPECT_NEAR(touches[i], static_cast<double>(expected.touches[i]), 1e-8) << i;
+  const State end = test::run(scene, {}, scene.trial.time_limit).final_state;
+  EXPECT_NEAR(end.y, static_cast<double>(expected.state().y), 1e-8);
+  EXPECT_NEAR(end.vy, static_cast<double>(expected.state().v), 1e-7);
+}
+
+TEST(Recovery, a_slow_base_is_met_where_it_is) { expect_same(ball(400.0, 50.0, 1.0, 10.0)); }
+TEST(Recovery, a_fast_base_is_met_at_its_surface) { expect_same(ball(1000.0, 6.0, 1.0, 10.0)); }
+TEST(Recovery, a_base_that_is_shaken_fast_is_left_and_met_again) { expect_same(ball(300.0, 60.0, 6.0, 40.0)); }
+
+// The ball meets the base at u = u(release) exp(-(k/h) dt), exactly.
+TEST(Recovery, deformation_relaxes_as_an_exponential) {
+  for (const Scene& scene : {ball(400.0, 50.0, 1.0, 10.0), ball(300.0, 60.0, 6.0, 40.0)}) {
+    const double rate = scene.base.stiffness_y / scene.base.damping_y;
+    double left = 0.0, since = 0.0;
+    int met = 0;
+    for (const TimedEvent& e : test::events_of(scene, 6.0)) {
+      const double depth = 0.9 - e.state.y;
+      if (e.event.kind == EventKind::release) {
+        left = depth;
+        since = e.time;
+      }
+      if (e.event.kind != EventKind::touch && e.event.kind != EventKind::reload) continue;
+      EXPECT_NEAR(depth, left * std::exp(-rate * (e.time - since)), 1e-14) << "at " << e.time;
+      ++met;
+    }
+    EXPECT_GE(met, 4);
+  }
+}
+
+// Recovering at once (k/h -> infinity) is the default model.
+TEST(Recovery, of_a_fast_base_tends_to_the_default) {
+  Scene with = ball(4e4, 4.0, 1.0, 10.0), without = with;
+  without.base.recovery = false;
+  // what is left of u at the next touch is exp(-1e4 dt): nothing
+  EXPECT_LT(test::distance(test::run(with, {}, 6.0).final_state, test::run(without, {}, 6.0).final_state), 1e-9);
+}
+
+TEST(Recovery, closes_the_ledger) {
+  for (const Scene& scene : {ball(400.0, 50.0, 1.0, 10.0), ball(1000.0, 6.0, 1.0, 10.0), ball(300.0, 60.0, 6.0, 40.0)}) {
+    const TrialResult result = test::run(scene, {}, 6.0);
+    EXPECT_LT(result.energy->residual, 1e-9);
+    // nothing is dropped: what the base keeps goes into its own damper
+    EXPECT_NEAR(result.energy->release_loss, 0.0, 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
