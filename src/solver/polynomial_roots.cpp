@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/solver.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -25,6 +27,13 @@ Range slope_on_unit(const Series& g, int order) {
   Range range{g[1], g[1]};
   for (int k = 2; k <= order; ++k) (g[k] < 0.0 ? range.low : range.high) += k * g[k];
   return range;
+}
+
+/// Numbers that are not finite decide no bound: without this check every half would be halved again.
+void require_finite(const Series& unit, int order) {
+  double sum = 0.0;
+  for (int k = 0; k <= order; ++k) sum += std::abs(unit[k]);
+  if (!std::isfinite(sum)) throw SolverFailure("the motion is no longer finite");
 }
 
 /// g(t h) as a polynomial on [0, 1].
@@ -136,6 +145,7 @@ double first_fall(const Series& g, int order, double h, int zeros_at_start) {
     if (k == 0 || unit[k] < 0.0) low += unit[k];
   }
   if (low > 0.0 && zeros_at_start == 0) return kNoRoot;
+  require_finite(unit, order);
   if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);
   if (unit[0] <= 0.0 && zeros_at_start == 0) order = deflate(unit, order, 1);
   // what starts at an exact zero is judged by its first coefficient that is not
@@ -152,6 +162,7 @@ Entry first_entry(const Conditions& conditions, int order, double h) {
   std::array<int, kMaxConditions> orders{};
   for (int i = 0; i < conditions.count; ++i) {
     scale_to_unit(conditions.g[i], order, h, unit.g[i]);
+    require_finite(unit.g[i], order);
     orders[i] = deflate(unit.g[i], order, conditions.zeros_at_start[i]);
   }
   Entry entry = first_entry_on_unit(unit, orders, 0);
