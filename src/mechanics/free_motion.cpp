@@ -41,6 +41,8 @@ void FreeMotion::add(const DriveForm& form) {
   if (!(norm * kLargestGain * kLargestGain > size * size)) exact_ = false;
   const double s = form.amplitude * form.cos_phase, c = form.amplitude * form.sin_phase;
   sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm});
+  // a response far larger than the motion cancels against the start
+  if (!(std::hypot(sines_.back().sin_amplitude, sines_.back().cos_amplitude) < kLargestGain)) exact_ = false;
 }
 
 void FreeMotion::settle() {

@@ -95,24 +95,25 @@ void place_contacts(const System& system, const State& state, ContactStates& con
     const Vec2 p = site_point(system, state, site);
     for (int half = 0; half < region_count(site); ++half) {
       const Region region = site_region(system, site, half);
-      // inside: all conditions hold; the nearest face is the one with the least depth
+      // inside: all conditions hold; of the faces that the scene calls for the nearest is the one with the least depth
       bool inside = true;
       double least = INFINITY;
       Face nearest = Face::none;
       for (int j = 0; j < region.count; ++j) {
         const double depth = region.conditions[j].value(p);
+        const Face face = region.conditions[j].face;
         inside = inside && depth > 0.0;
-        if (depth < least) {
+        if (depth < least && is_called_for(system, face)) {
           least = depth;
-          nearest = region.conditions[j].face;
+          nearest = face;
         }
       }
       if (!inside) continue;
       // a corner below the floor level but beside the slot is in the base, not on the floor
       if (nearest == Face::floor && std::abs(p.x) > system.slot_half_width) continue;
-      contact.face = is_called_for(system, nearest) ? nearest : Face::none;
+      contact.face = nearest;
       contact.phase = Phase::free;
-      if (contact.face == Face::none) continue;
+      if (nearest == Face::none) continue;
       const ContactKinematics k = contact_kinematics(system, state, site, nearest);
       const double force = stiffness_of(system, nearest, c, s) * k.depth + damping_of(system, nearest, c, s) * k.depth_rate;
       contact.phase = force > 0.0 ? Phase::loaded : Phase::unloaded;

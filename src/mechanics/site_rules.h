@@ -38,7 +38,7 @@ Region face_limits(const System& system, Face face, const Vec2& p);
 /// Whether the scene uses the site at all.
 bool site_in_use(const System& system, Site site);
 
-/// Contact states of a start: points inside the other body touch its nearest face, if the scene calls for it. The
+/// Contact states of a start: points inside the other body touch the nearest of its faces that the scene calls for. The
 /// contacts that carry force (N > 0) are loaded; their friction is left to the hybrid step.
 void place_contacts(const System& system, const State& state, ContactStates& contacts);
 

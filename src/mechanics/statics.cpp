@@ -48,11 +48,11 @@ double moment_scale(const System& system, double phi) {
 
 /// Root of a function on [low, high] whose ends differ in sign, to roundoff (bisection).
 double bisect(const std::function<double(double)>& f, double low, double high) {
-  const bool low_positive = f(low) > 0.0;
+  const double sign = f(low) > 0.0 ? 1.0 : -1.0;
   for (int i = 0; i < 200; ++i) {
     const double middle = 0.5 * (low + high);
     if (middle == low || middle == high) break;
-    (((f(middle) > 0.0) == low_positive) ? low : high) = middle;
+    (sign * f(middle) > 0.0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -159,7 +159,7 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
       if (std::abs(high - begin) > 0.5 * kPi) return false;
       const double value = moment(high);
       if (std::isnan(value)) return false;
-      if ((value > 0.0) != (first > 0.0)) break;
+      if (!(direction * value > 0.0)) break;
       low = high;
       step = std::min(1.5 * step, 0.02);
     }

@@ -260,10 +260,15 @@ class Search {
     }
   }
 
+  bool presses_wall(Site corner) const {
+    const Face face = segment_.contacts[static_cast<std::size_t>(corner)].face;
+    return face == Face::right_wall || face == Face::left_wall;
+  }
+
   /// A corner reaches the floor only inside the slot (or while it presses into a wall).
   bool over_floor(Site site, double time) {
     const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
-    if (segment_.contacts[static_cast<std::size_t>(corner)].touching()) return true;
+    if (presses_wall(corner)) return true;
     const Series across = condition_series({1.0, 0.0, 0.0, Face::none}, site);
     return std::abs(value_at(across, order_, time)) <= system_.slot_half_width;
   }
@@ -293,8 +298,7 @@ class Search {
       add(below.conditions[0], site);
     }
     for (const Site site : {Site::b1, Site::b2}) {
-      const Face face = segment_.contacts[static_cast<std::size_t>(site)].face;
-      if (!between_walls || face == Face::right_wall || face == Face::left_wall) continue;
+      if (!between_walls || presses_wall(site)) continue;
       add({1.0, 0.0, l, Face::none}, site);
       add({-1.0, 0.0, l, Face::none}, site);
     }
