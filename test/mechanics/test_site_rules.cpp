@@ -82,9 +82,11 @@ TEST(SiteRules, a_corner_inside_at_the_start_touches_the_nearest_face) {
 TEST(SiteRules, faces_that_are_not_called_for_are_not_touched) {
   const System s = system_with(false, true, false);
   const double l = s.slot_half_width;
-  // nearest is the wall, which is not there: free until it comes out
+  // nearer to where a wall would be: the top surface is the only face that is there
   const State q{l + 0.01 - s.half_width, -0.02 + s.base_distance, 0.0, 0, 0, 0};
-  EXPECT_EQ(at(placed(s, q), Site::b1).phase, Phase::free);
+  EXPECT_EQ(at(placed(s, q), Site::b1).face, Face::top);
+  // with walls alone a corner is always at a wall
+  EXPECT_EQ(at(placed(system_with(false, false, true), q), Site::b1).face, Face::right_wall);
   EXPECT_EQ(at(placed(s, q), Site::a1).phase, Phase::outside);
   EXPECT_FALSE(site_in_use(s, Site::a1));
   EXPECT_FALSE(is_called_for(s, Face::bottom));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../support/motion_check.h"
+#include "../support/random_scenes.h"
 #include "../support/scenes.h"
 
 namespace vibratory_alignment {
@@ -89,10 +90,10 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-class MotionLaws : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(scene, MotionLaws, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
+class MotionLawsOf : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(scene, MotionLawsOf, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
 
-TEST_P(MotionLaws, hold_in_every_segment) {
+TEST_P(MotionLawsOf, hold_in_every_segment) {
   Scene scene = test::scene_of(full, GetParam().settings);
   scene.name = GetParam().name;
   const TrialResult result = test::checked_run(scene);
@@ -100,6 +101,19 @@ TEST_P(MotionLaws, hold_in_every_segment) {
   EXPECT_GT(result.impacts[0] + result.impacts[1] + result.impacts[2] + result.impacts[3] + (result.mode == Mode::nonimpact), 0);
   // truncation and the roundoff of a stiff base
   EXPECT_LT(result.energy->residual, std::max(1e-9, 1e-2 * scene.solver.tolerance));
+}
+
+// Random scenes of all effects. The seeds beyond the first hundred have found faults before.
+TEST(MotionLaws, hold_in_random_scenes) {
+  std::vector<unsigned> seeds = {152, 163, 169, 224, 231, 242, 260, 311, 614, 652, 902, 929, 1025, 1041};
+  for (unsigned seed = 1; seed <= 100; ++seed) seeds.push_back(seed);
+  for (const unsigned seed : seeds) {
+    Scene scene = test::random_scene(seed);
+    scene.name = "seed " + std::to_string(seed);
+    const TrialResult result = test::checked_run(scene);
+    EXPECT_NE(result.outcome, Outcome::failed) << scene.name << ": " << result.failure;
+    EXPECT_LT(result.energy->residual, 1e-9) << scene.name;
+  }
 }
 
 }  // namespace
