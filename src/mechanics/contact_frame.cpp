@@ -6,16 +6,12 @@ namespace {
 /// C1 n_y^2 + C2 n_x^2 and the like, n in world axes.
 double along_normal(Face face, double cos_phi, double sin_phi, double across, double along) {
   switch (face) {
-    case Face::bottom:
-      return along * cos_phi * cos_phi + across * sin_phi * sin_phi;
+    case Face::bottom: return along * cos_phi * cos_phi + across * sin_phi * sin_phi;
     case Face::right_side:
-    case Face::left_side:
-      return along * sin_phi * sin_phi + across * cos_phi * cos_phi;
+    case Face::left_side: return along * sin_phi * sin_phi + across * cos_phi * cos_phi;
     case Face::right_wall:
-    case Face::left_wall:
-      return across;
-    default:
-      return along;
+    case Face::left_wall: return across;
+    default: return along;
   }
 }
 
@@ -23,20 +19,13 @@ double along_normal(Face face, double cos_phi, double sin_phi, double across, do
 
 ContactFrame contact_frame(const System& system, Face face) {
   switch (face) {
-    case Face::bottom:
-      return {0.0, 1.0, 1.0, system.base_distance};
-    case Face::right_side:
-      return {-1.0, 0.0, 1.0, system.half_width};
-    case Face::left_side:
-      return {1.0, 0.0, 1.0, system.half_width};
-    case Face::right_wall:
-      return {-1.0, 0.0, -1.0, -system.slot_half_width};
-    case Face::left_wall:
-      return {1.0, 0.0, -1.0, -system.slot_half_width};
-    case Face::floor:
-      return {0.0, 1.0, -1.0, -system.floor_depth};
-    default:
-      return {0.0, 1.0, -1.0, 0.0};
+    case Face::bottom: return {0.0, 1.0, 1.0, system.base_distance};
+    case Face::right_side: return {-1.0, 0.0, 1.0, system.half_width};
+    case Face::left_side: return {1.0, 0.0, 1.0, system.half_width};
+    case Face::right_wall: return {-1.0, 0.0, -1.0, -system.slot_half_width};
+    case Face::left_wall: return {1.0, 0.0, -1.0, -system.slot_half_width};
+    case Face::floor: return {0.0, 1.0, -1.0, -system.floor_depth};
+    default: return {0.0, 1.0, -1.0, 0.0};
   }
 }
 

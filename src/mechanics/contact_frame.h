@@ -21,9 +21,7 @@ struct Vec2 {
 inline bool is_edge(Site site) { return site == Site::a1 || site == Site::a2; }
 
 /// +1 for the right one of a pair (a1, b1), -1 for the left one.
-inline double side_of(Site site) {
-  return site == Site::a1 || site == Site::b1 || site == Site::b1_floor ? 1.0 : -1.0;
-}
+inline double side_of(Site site) { return site == Site::a1 || site == Site::b1 || site == Site::b1_floor ? 1.0 : -1.0; }
 
 /// Index of the point within its pair: 0 right, 1 left.
 inline int pair_index(Site site) { return side_of(site) > 0.0 ? 0 : 1; }

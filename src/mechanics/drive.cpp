@@ -61,7 +61,8 @@ double Drive::phase_at(const Instant& t) const {
     if (branch_ == 0) {
       angle = reduce(product(excitation_.frequency, dt)) + reduce(product(0.5 * rate, product(dt, dt)));
     } else {
-      const double at_end = reduce({0.5 * (excitation_.frequency + excitation_.end_frequency) * excitation_.sweep_time, 0.0});
+      const double at_end =
+          reduce({0.5 * (excitation_.frequency + excitation_.end_frequency) * excitation_.sweep_time, 0.0});
       const Double2 after{dt.high - excitation_.sweep_time, dt.low};
       angle = at_end + reduce(product(excitation_.end_frequency, after));
     }
@@ -83,9 +84,7 @@ DriveForm Drive::form_at(const Instant& t) const {
   const double amplitude = excitation_.amplitude;
   const double theta = phase_at(t);
   switch (excitation_.waveform) {
-    case Waveform::square:
-      form.constant = branch_ == 0 ? amplitude : -amplitude;
-      break;
+    case Waveform::square: form.constant = branch_ == 0 ? amplitude : -amplitude; break;
     case Waveform::triangle: {
       // rising through 0 at theta = 0 (2 pi), falling through 0 at theta = pi
       const double slope = amplitude * 2.0 / kPi;
@@ -121,16 +120,10 @@ double Drive::time_to_kink(const Instant& t) const {
   if (excitation_.amplitude == 0.0) return kInfinity;
   double target = 0.0;
   switch (excitation_.waveform) {
-    case Waveform::square:
-      target = branch_ == 0 ? kPi : kTwoPiHigh;
-      break;
-    case Waveform::triangle:
-      target = branch_ == 0 ? 0.5 * kPi : 1.5 * kPi;
-      break;
-    case Waveform::chirp:
-      return branch_ == 0 ? std::max(0.0, excitation_.sweep_time - (t - reference_)) : kInfinity;
-    case Waveform::sine:
-      return kInfinity;
+    case Waveform::square: target = branch_ == 0 ? kPi : kTwoPiHigh; break;
+    case Waveform::triangle: target = branch_ == 0 ? 0.5 * kPi : 1.5 * kPi; break;
+    case Waveform::chirp: return branch_ == 0 ? std::max(0.0, excitation_.sweep_time - (t - reference_)) : kInfinity;
+    case Waveform::sine: return kInfinity;
   }
   // the way to go, at most half a turn; just before or after the target it may come out as minus nothing
   double way = wrap(target - phase_at(t));

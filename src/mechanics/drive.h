@@ -62,9 +62,9 @@ class Drive {
   void choose_branch(const Instant& now);
 
   Excitation excitation_;
-  Instant reference_;            ///< instant of reference_phase_, start of the sweep
+  Instant reference_;  ///< instant of reference_phase_, start of the sweep
   double reference_phase_ = 0.0;
-  int branch_ = 0;               ///< square: 0 high, 1 low; triangle: 0 rising, 1 falling; chirp: 0 sweeping, 1 after
+  int branch_ = 0;  ///< square: 0 high, 1 low; triangle: 0 rising, 1 falling; chirp: 0 sweeping, 1 after
 };
 
 }  // namespace vibratory_alignment

@@ -49,7 +49,7 @@ class FreeMotion {
   double start_q_ = 0.0, start_v_ = 0.0;
   double constant_ = 0.0, slope_ = 0.0;
   bool exact_ = true;
-  double decay_ = 0.0, square_ = 0.0, root_ = 0.0;  ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
+  double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
   double c_factor_ = 0.0, s_factor_ = 0.0;
   std::vector<Sine> sines_;

@@ -8,14 +8,14 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Below this, relative to the largest, a pivot of G is zero: the contacts hold the same motion.
-constexpr double kSingular = 1e-12;
+/// Below this, relative to the largest, a pivot of G is rounding: the contacts hold the same motion.
+constexpr double kSingular = 2e-15;
 constexpr double kRoundoff = 1e-12;
 
 using Choice = std::array<Slip, kSiteCount>;
 
-/// How far a choice of stick and slip is from fulfilling the conditions, in accelerations relative to what they are made
-/// of; 0 when it does, infinite when nothing can hold a sticking contact.
+/// How far a choice of stick and slip is from fulfilling the conditions, in accelerations relative to what they are
+/// made of; 0 when it does, infinite when nothing can hold a sticking contact.
 double violation(const FrictionProblem& problem, const Choice& choice, FrictionSolution& solution) {
   std::array<int, kSiteCount> sticking{};
   int stick_count = 0;

@@ -28,8 +28,8 @@ struct FrictionSolution {
 
 FrictionSolution solve_friction(const FrictionProblem& problem);
 
-/// Solves G T = rhs for the first `count` unknowns; where G is singular (contacts that hold the same motion) the smallest
-/// forces: they share equally. Not finite where a single contact cannot hold its motion at all (G = 0).
+/// Solves G T = rhs for the first `count` unknowns; where G is singular (contacts that hold the same motion) the
+/// smallest forces: they share equally. Not finite where a single contact cannot hold its motion at all (G = 0).
 void solve_mobility(const std::array<std::array<double, kSiteCount>, kSiteCount>& mobility, int count,
                     const std::array<double, kSiteCount>& rhs, std::array<double, kSiteCount>& force);
 

@@ -15,8 +15,8 @@ Region site_region(const System& system, Site site, int half) {
   } else if (site == Site::b1 || site == Site::b2) {
     region.count = 2;
     region.conditions[0] = {0.0, -1.0, 0.0, Face::top};
-    region.conditions[1] = half == 0 ? RegionCondition{1.0, 0.0, -l, Face::right_wall}
-                                     : RegionCondition{-1.0, 0.0, -l, Face::left_wall};
+    region.conditions[1] =
+        half == 0 ? RegionCondition{1.0, 0.0, -l, Face::right_wall} : RegionCondition{-1.0, 0.0, -l, Face::left_wall};
   } else {
     region.count = 1;
     region.conditions[0] = {0.0, -1.0, -system.floor_depth, Face::floor};
@@ -28,17 +28,12 @@ bool is_called_for(const System& system, Face face) {
   switch (face) {
     case Face::bottom:
     case Face::right_side:
-    case Face::left_side:
-      return system.contacts.edges;
-    case Face::top:
-      return system.contacts.corners;
+    case Face::left_side: return system.contacts.edges;
+    case Face::top: return system.contacts.corners;
     case Face::right_wall:
-    case Face::left_wall:
-      return system.contacts.walls;
-    case Face::floor:
-      return system.has_floor;
-    default:
-      return false;
+    case Face::left_wall: return system.contacts.walls;
+    case Face::floor: return system.has_floor;
+    default: return false;
   }
 }
 
@@ -58,16 +53,15 @@ Region face_limits(const System& system, Face face, const Vec2& p) {
       break;
     case Face::top:  // beside the slot
       limits.count = 1;
-      limits.conditions[0] = p.x > 0.0 ? RegionCondition{1.0, 0.0, -l, Face::right_wall}
-                                       : RegionCondition{-1.0, 0.0, -l, Face::left_wall};
+      limits.conditions[0] =
+          p.x > 0.0 ? RegionCondition{1.0, 0.0, -l, Face::right_wall} : RegionCondition{-1.0, 0.0, -l, Face::left_wall};
       break;
     case Face::right_wall:  // below the edge; the solid goes on behind the floor
     case Face::left_wall:
       limits.count = 1;
       limits.conditions[0] = {0.0, -1.0, 0.0, Face::top};
       break;
-    default:
-      break;
+    default: break;
   }
   return limits;
 }
@@ -75,13 +69,10 @@ Region face_limits(const System& system, Face face, const Vec2& p) {
 bool site_in_use(const System& system, Site site) {
   switch (site) {
     case Site::a1:
-    case Site::a2:
-      return system.contacts.edges;
+    case Site::a2: return system.contacts.edges;
     case Site::b1:
-    case Site::b2:
-      return system.contacts.corners || system.contacts.walls;
-    default:
-      return system.has_floor;
+    case Site::b2: return system.contacts.corners || system.contacts.walls;
+    default: return system.has_floor;
   }
 }
 
@@ -115,7 +106,8 @@ void place_contacts(const System& system, const State& state, ContactStates& con
       contact.phase = Phase::free;
       if (nearest == Face::none) continue;
       const ContactKinematics k = contact_kinematics(system, state, site, nearest);
-      const double force = stiffness_of(system, nearest, c, s) * k.depth + damping_of(system, nearest, c, s) * k.depth_rate;
+      const double force =
+          stiffness_of(system, nearest, c, s) * k.depth + damping_of(system, nearest, c, s) * k.depth_rate;
       contact.phase = force > 0.0 ? Phase::loaded : Phase::unloaded;
     }
   }

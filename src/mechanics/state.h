@@ -4,8 +4,8 @@
 namespace vibratory_alignment {
 
 struct State {
-  double x = 0.0, y = 0.0, phi = 0.0;        ///< mass centre; tilt, counter-clockwise, rad
-  double vx = 0.0, vy = 0.0, omega = 0.0;    ///< their rates
+  double x = 0.0, y = 0.0, phi = 0.0;      ///< mass centre; tilt, counter-clockwise, rad
+  double vx = 0.0, vy = 0.0, omega = 0.0;  ///< their rates
 };
 
 }  // namespace vibratory_alignment

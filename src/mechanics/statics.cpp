@@ -99,7 +99,8 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
   const double c = std::cos(phi), s = std::sin(phi);
   ContactStates contacts{};
   place_contacts(system, state, contacts);
-  double force_x = -system.x.stiffness * (x - system.x.anchor), force_y = -(y - system.y.anchor) * system.y.stiffness - system.weight;
+  double force_x = -system.x.stiffness * (x - system.x.anchor),
+         force_y = -(y - system.y.anchor) * system.y.stiffness - system.weight;
   double moment = -system.phi.stiffness * (phi - system.phi.anchor);
   int loaded = 0;
   ContactKinematics only;

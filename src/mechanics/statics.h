@@ -21,8 +21,8 @@ struct StaticLoad {
 /// that carries all; none when the law is regularised, which gives no force at rest).
 StaticLoad static_load(const System& system, double x, double y, double phi);
 
-/// y and phi of the static equilibrium at system.start.x; what is given stays. With `pressing_force`, y_a follows phi as
-/// y_touch - pressing_force and is set in `system`. False when there is none.
+/// y and phi of the static equilibrium at system.start.x; what is given stays. With `pressing_force`, y_a follows phi
+/// as y_touch - pressing_force and is set in `system`. False when there is none.
 bool find_equilibrium(System& system, std::optional<double> pressing_force, bool free_y, bool free_phi);
 
 }  // namespace vibratory_alignment

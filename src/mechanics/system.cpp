@@ -20,7 +20,9 @@ Axis make_axis(const GripperAxis& gripper, double anchor) {
   return axis;
 }
 
-[[noreturn]] void refuse(const Scene& scene, const std::string& fault) { throw SceneError(scene.source.empty() ? scene.name : scene.source, {fault}); }
+[[noreturn]] void refuse(const Scene& scene, const std::string& fault) {
+  throw SceneError(scene.source.empty() ? scene.name : scene.source, {fault});
+}
 
 }  // namespace
 

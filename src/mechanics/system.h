@@ -19,18 +19,18 @@ struct System {
   double base_distance = 0.0;    ///< b
   double slot_half_width = 0.0;  ///< l
   Axis x, y, phi;
-  double weight = 0.0;           ///< w
+  double weight = 0.0;  ///< w
 
   ContactFeatures contacts;
   bool has_floor = false;
   double floor_depth = 0.0;
   double stiffness_x = 0.0, stiffness_y = 0.0;  ///< C2, C1
   double damping_x = 0.0, damping_y = 0.0;      ///< H2, H1
-  bool isotropic = true;         ///< C1 = C2 and H1 = H2
+  bool isotropic = true;                        ///< C1 = C2 and H1 = H2
   bool recovery = false;
 
-  double friction = 0.0;         ///< f, 0: no friction
-  double regularization = 0.0;   ///< eps, 0: set-valued friction
+  double friction = 0.0;        ///< f, 0: no friction
+  double regularization = 0.0;  ///< eps, 0: set-valued friction
 
   double aligned_depth = 0.0;
   bool has_inserted_depth = false;

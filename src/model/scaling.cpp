@@ -31,68 +31,40 @@ double largest_force(const Scene& in_si, Direction direction) {
 
 const char* si_unit(Quantity quantity) {
   switch (quantity) {
-    case Quantity::mass:
-      return "kg";
-    case Quantity::length:
-      return "m";
-    case Quantity::angle:
-      return "rad";
-    case Quantity::time:
-      return "s";
-    case Quantity::velocity:
-      return "m/s";
-    case Quantity::angular_velocity:
-      return "rad/s";
-    case Quantity::force:
-      return "N";
-    case Quantity::moment:
-      return "N m";
-    case Quantity::stiffness:
-      return "N/m";
-    case Quantity::angular_stiffness:
-      return "N m/rad";
-    case Quantity::damping:
-      return "N s/m";
-    case Quantity::angular_damping:
-      return "N m s/rad";
-    case Quantity::inertia:
-      return "kg m^2";
-    case Quantity::frequency:
-      return "Hz";
+    case Quantity::mass: return "kg";
+    case Quantity::length: return "m";
+    case Quantity::angle: return "rad";
+    case Quantity::time: return "s";
+    case Quantity::velocity: return "m/s";
+    case Quantity::angular_velocity: return "rad/s";
+    case Quantity::force: return "N";
+    case Quantity::moment: return "N m";
+    case Quantity::stiffness: return "N/m";
+    case Quantity::angular_stiffness: return "N m/rad";
+    case Quantity::damping: return "N s/m";
+    case Quantity::angular_damping: return "N m s/rad";
+    case Quantity::inertia: return "kg m^2";
+    case Quantity::frequency: return "Hz";
   }
   return "";
 }
 
 double si_size(Quantity quantity, const Scales& scales) {
   switch (quantity) {
-    case Quantity::mass:
-      return scales.mass_kg;
-    case Quantity::length:
-      return scales.length_m();
-    case Quantity::angle:
-      return 1.0;
-    case Quantity::time:
-      return scales.time_s();
-    case Quantity::velocity:
-      return scales.velocity_m_per_s();
-    case Quantity::angular_velocity:
-      return scales.angular_velocity_rad_per_s();
-    case Quantity::force:
-      return scales.force_n;
-    case Quantity::moment:
-      return scales.moment_n_m();
-    case Quantity::stiffness:
-      return scales.stiffness_n_per_m;
-    case Quantity::angular_stiffness:
-      return scales.moment_n_m();
-    case Quantity::damping:
-      return scales.stiffness_n_per_m * scales.time_s();
-    case Quantity::angular_damping:
-      return scales.moment_n_m() * scales.time_s();
-    case Quantity::inertia:
-      return scales.mass_kg * scales.length_m() * scales.length_m();
-    case Quantity::frequency:
-      return 1.0 / (two_pi * scales.time_s());
+    case Quantity::mass: return scales.mass_kg;
+    case Quantity::length: return scales.length_m();
+    case Quantity::angle: return 1.0;
+    case Quantity::time: return scales.time_s();
+    case Quantity::velocity: return scales.velocity_m_per_s();
+    case Quantity::angular_velocity: return scales.angular_velocity_rad_per_s();
+    case Quantity::force: return scales.force_n;
+    case Quantity::moment: return scales.moment_n_m();
+    case Quantity::stiffness: return scales.stiffness_n_per_m;
+    case Quantity::angular_stiffness: return scales.moment_n_m();
+    case Quantity::damping: return scales.stiffness_n_per_m * scales.time_s();
+    case Quantity::angular_damping: return scales.moment_n_m() * scales.time_s();
+    case Quantity::inertia: return scales.mass_kg * scales.length_m() * scales.length_m();
+    case Quantity::frequency: return 1.0 / (two_pi * scales.time_s());
   }
   return 1.0;
 }

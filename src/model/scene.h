@@ -19,9 +19,9 @@ enum class Waveform { sine, square, triangle, chirp };
 
 /// The three physical scales from which all others follow.
 struct Scales {
-  double mass_kg = 1.0;             ///< M
-  double stiffness_n_per_m = 1.0;   ///< K_Y
-  double force_n = 1.0;             ///< F1
+  double mass_kg = 1.0;            ///< M
+  double stiffness_n_per_m = 1.0;  ///< K_Y
+  double force_n = 1.0;            ///< F1
 
   double length_m() const { return force_n / stiffness_n_per_m; }
   double time_s() const { return std::sqrt(mass_kg / stiffness_n_per_m); }
@@ -40,8 +40,8 @@ struct Part {
 
 /// The hole. Its half width is part.half_width + clearance.
 struct Slot {
-  double clearance = 0.0;        ///< delta, per side
-  std::optional<double> depth;   ///< of the floor below the top surface; absent: no floor
+  double clearance = 0.0;       ///< delta, per side
+  std::optional<double> depth;  ///< of the floor below the top surface; absent: no floor
 };
 
 /// One coordinate of the part in its gripper: inertia q'' + damping q' + stiffness (q - anchor) = forces.
@@ -104,15 +104,15 @@ struct TrialSettings {
 };
 
 struct SolverSettings {
-  std::string name = "event";          ///< one of solver_names.h
+  std::string name = "event";  ///< one of solver_names.h
   double tolerance = 1.0e-8;
-  std::optional<double> step;          ///< fixed-step solvers, in units of time
-  long step_limit = 20'000'000;        ///< more steps than this end the trial as failed
+  std::optional<double> step;    ///< fixed-step solvers, in units of time
+  long step_limit = 20'000'000;  ///< more steps than this end the trial as failed
 };
 
 struct Scene {
   std::string name;
-  std::string source;            ///< file or parameter namespace that it was read from, for messages
+  std::string source;  ///< file or parameter namespace that it was read from, for messages
   Units units = Units::dimensionless;
   std::optional<Scales> scales;  ///< always set for si scenes; absent in a dimensionless scene: no SI output
   Part part;

@@ -19,8 +19,13 @@ class Search {
  public:
   Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries,
          const DriveForms& drives)
-      : system_(system), series_(series), segment_(segment), pins_(pins), recoveries_(recoveries),
-        order_(segment.order), duration_(segment.duration) {
+      : system_(system),
+        series_(series),
+        segment_(segment),
+        pins_(pins),
+        recoveries_(recoveries),
+        order_(segment.order),
+        duration_(segment.duration) {
     bound_motion(drives);
   }
 
@@ -30,18 +35,10 @@ class Search {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
       switch (segment_.contacts[i].phase) {
-        case Phase::loaded:
-          guard_loaded(site, segment_.loaded[index++]);
-          break;
-        case Phase::unloaded:
-          guard_unloaded(site);
-          break;
-        case Phase::outside:
-          guard_outside(site);
-          break;
-        case Phase::free:
-          guard_free(site);
-          break;
+        case Phase::loaded: guard_loaded(site, segment_.loaded[index++]); break;
+        case Phase::unloaded: guard_unloaded(site); break;
+        case Phase::outside: guard_outside(site); break;
+        case Phase::free: guard_free(site); break;
       }
     }
     if (outcomes.aligned) guard_depth(EventKind::aligned, system_.aligned_depth, true);
@@ -62,9 +59,7 @@ class Search {
     found_.events[found_.count++] = {kind, site, face, direction, 2};
   }
 
-  Vec2 start_point(Site site) const {
-    return site_point(system_, segment_.begin, site);
-  }
+  Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site); }
 
   /// Largest speeds and accelerations of the axes during the segment.
   void bound_motion(const DriveForms& drives) {
@@ -174,8 +169,8 @@ class Search {
     double push = 0.0;
     for (int i = 0; i < segment_.loaded_count; ++i) push += std::abs(segment_.loaded[i].normal_force[0]);
     const double reach = system_.half_width + system_.base_distance;
-    const double mobility = std::max(system_.x.inverse_inertia, system_.y.inverse_inertia) +
-                            reach * reach * system_.phi.inverse_inertia;
+    const double mobility =
+        std::max(system_.x.inverse_inertia, system_.y.inverse_inertia) + reach * reach * system_.phi.inverse_inertia;
     return sum <= kZeroSlip * (speed_ + push * mobility * duration_);
   }
 
@@ -187,8 +182,7 @@ class Search {
     const double f = system_.friction;
     Series g;
     switch (state.slip) {
-      case Slip::none:
-        break;
+      case Slip::none: break;
       case Slip::plus:
       case Slip::minus: {
         const double sign = state.slip == Slip::plus ? 1.0 : -1.0;
@@ -280,7 +274,8 @@ class Search {
     const Region region = site_region(system_, site, half);
     for (int j = 0; j < region.count; ++j) {
       const RegionCondition& condition = region.conditions[j];
-      offer(first_fall(condition_series(condition, site), order_, duration_, 0), EventKind::leave, site, condition.face);
+      offer(first_fall(condition_series(condition, site), order_, duration_, 0), EventKind::leave, site,
+            condition.face);
     }
   }
 

@@ -7,9 +7,9 @@ namespace vibratory_alignment {
 
 /// What is known to be exactly zero at the start of a segment because an event has just put it there.
 struct SitePins {
-  int normal = 0;                    ///< zeros of N (loaded) or of the force that would load (unloaded)
-  int slip = 0;                      ///< zeros of V; 2 where sliding has just begun out of stick
-  Face face = Face::none;            ///< the face on which an outside point lies
+  int normal = 0;          ///< zeros of N (loaded) or of the force that would load (unloaded)
+  int slip = 0;            ///< zeros of V; 2 where sliding has just begun out of stick
+  Face face = Face::none;  ///< the face on which an outside point lies
 };
 using Pins = std::array<SitePins, kSiteCount>;
 

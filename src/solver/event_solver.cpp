@@ -14,9 +14,13 @@ namespace {
 constexpr int kFlightOrder = 18;
 constexpr double kFlightTolerance = 1e-15;
 
-/// Leaps in flight, in radians of its fastest motion: shorter ones are left to the series, longer ones bound too loosely.
+/// Leaps in flight, in radians of its fastest motion: shorter ones are left to the series, longer ones bound too
+/// loosely.
 constexpr double kShortestLeap = 0.3;
 constexpr double kLongestLeap = 20.0;
+
+/// Longest flight in one closed form, in radians of its fastest motion.
+constexpr double kLongestFlight = 6000.0;
 
 /// Truncation error below which rounding is all that is left.
 constexpr double kSmallestTolerance = 1e-16;
@@ -61,9 +65,12 @@ bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx +
 
 EventSolver::EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance,
                          long step_limit)
-    : system_(system), tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
-      contact_order_(series_order(tolerance_)), step_limit_(step_limit),
-      series_(system_), flight_(excitations.size()) {
+    : system_(system),
+      tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
+      contact_order_(series_order(tolerance_)),
+      step_limit_(step_limit),
+      series_(system_),
+      flight_(excitations.size()) {
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
   for (const Excitation& excitation : excitations) drives_.emplace_back(excitation, now_);
@@ -133,7 +140,8 @@ bool EventSolver::leap(double longest) {
   for (const Recovery& recovery : mode_.recoveries)
     if (recovery.deformation > 0.0) return false;
   const double most = std::min(longest, kLongestLeap / flight_.rate());
-  const double time = flight_.free_time(system_, segment_.flight_time, state_, mode_.contacts, mode_.pins, outcomes_, most);
+  const double time =
+      flight_.free_time(system_, segment_.flight_time, state_, mode_.contacts, mode_.pins, outcomes_, most);
   if (time < longest && time * flight_.rate() < kShortestLeap) return false;
   segment_.flight = &flight_;
   segment_.order = 0;
@@ -168,7 +176,9 @@ const Segment& EventSolver::advance(double limit) {
   if (contact) {
     in_flight_ = false;
   } else {
-    if (!in_flight_) flight_.begin(system_, state_, drives, now_);
+    // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
+    const bool long_ago = in_flight_ && (now_ - flight_.start()) * flight_.rate() > kLongestFlight;
+    if (!in_flight_ || long_ago) flight_.begin(system_, state_, drives, now_);
     in_flight_ = true;
     segment_.flight_time = now_ - flight_.start();
   }
@@ -230,8 +240,10 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
       if (drive.time_to_kink(segment_.start) <= segment_.duration) drive.pass_kink();
 
   segment_.event_count = 0;
-  if (found.count > 0 || kink) next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), found);
-  else if (segment_.duration > 0.0) next_mode_.pins = {};
+  if (found.count > 0 || kink)
+    next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), found);
+  else if (segment_.duration > 0.0)
+    next_mode_.pins = {};
   for (int i = 0; i < found.count; ++i)
     segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
   if (kink && segment_.event_count < kMaxEvents)

@@ -34,9 +34,9 @@ class EventSolver final : public Solver {
   int contact_order_;
   long step_limit_;
 
-  Instant now_;                 ///< start of the current segment
-  State state_;                 ///< at now_
-  ContactMode mode_, next_mode_;               ///< during the segment, and from its end on
+  Instant now_;                   ///< start of the current segment
+  State state_;                   ///< at now_
+  ContactMode mode_, next_mode_;  ///< during the segment, and from its end on
   std::vector<Drive> drives_, next_drives_;
   OutcomeGuards outcomes_;
   bool started_ = false;
@@ -44,11 +44,11 @@ class EventSolver final : public Solver {
   MotionSeries series_;
   Segment segment_;
 
-  bool in_flight_ = false;      ///< flight_ is the present one
+  bool in_flight_ = false;  ///< flight_ is the present one
   Flight flight_;
 
   int events_without_progress_ = 0;
-  int conflict_tries_ = 0;      ///< at this instant
+  int conflict_tries_ = 0;  ///< at this instant
   SolverCounts counts_;
 };
 

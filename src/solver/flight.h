@@ -1,7 +1,7 @@
 // A flight: the part moves freely, in closed form, from release to the next touch.
 //
-// Most of a flight is far from everything. How far it can be passed over in one leap without missing a touch follows from
-// bounds on third derivatives that hold for the whole flight (docs/hybrid_step.md "Leaps").
+// Most of a flight is far from everything. How far it can be passed over in one leap without missing a touch follows
+// from bounds on third derivatives that hold for the whole flight (docs/hybrid_step.md "Leaps").
 #pragma once
 
 #include "mechanics/free_motion.h"
@@ -19,7 +19,8 @@ class Flight {
   /// True where the closed form holds to roundoff in every coordinate.
   bool exact() const { return x_.exact() && y_.exact() && phi_.exact(); }
 
-  /// State at time t since the start of the flight. Coordinates without exact closed form are left as they are in `state`.
+  /// State at time t since the start of the flight. Coordinates without exact closed form are left as they are in
+  /// `state`.
   void at(double t, State& state) const;
 
   /// Forces of the excitations at time t since the start of the flight.

@@ -98,8 +98,10 @@ void MotionSeries::expand_free(const State& start, const DriveForms& drives, int
 
 void MotionSeries::trig_term(int k, Segment& segment) {
   // (c, s)' = omega (-s, c)
-  if (k > 0) direction_[k] = product_term(turned_, segment.omega, k - 1) / k;
-  else direction_[0] = Pair(segment.cos_phi[0], segment.sin_phi[0]);
+  if (k > 0)
+    direction_[k] = product_term(turned_, segment.omega, k - 1) / k;
+  else
+    direction_[0] = Pair(segment.cos_phi[0], segment.sin_phi[0]);
   turned_[k] = Pair(-direction_[k][1], direction_[k][0]);
   segment.cos_phi[k] = direction_[k][0];
   segment.sin_phi[k] = direction_[k][1];

@@ -61,8 +61,8 @@ class MotionSeries {
     bool turning = false;     ///< k(n), h(n) change with the tilt
     double stiffness = 0.0, damping = 0.0;
     Directions d;
-    Series k{}, h{};          ///< of turning contacts
-    Series tanh{}, sech2{};   ///< regularised: tanh(V/eps) and 1 - tanh^2
+    Series k{}, h{};         ///< of turning contacts
+    Series tanh{}, sech2{};  ///< regularised: tanh(V/eps) and 1 - tanh^2
   };
 
   struct Load {  ///< forces and moment of all contacts, one power
@@ -85,10 +85,10 @@ class MotionSeries {
   int order_ = 0;
   int known_trig_ = 0;  ///< highest known power of cos and sin
   std::array<Contact, kSiteCount> contacts_;
-  PairSeries direction_, turned_;       ///< (cos phi, sin phi) and (-sin phi, cos phi)
-  std::array<PairSeries, 4> points_;    ///< a1, a2, b1, b2 (floor sites share their corner)
+  PairSeries direction_, turned_;               ///< (cos phi, sin phi) and (-sin phi, cos phi)
+  std::array<PairSeries, 4> points_;            ///< a1, a2, b1, b2 (floor sites share their corner)
   std::array<PairSeries, 2> levers_, crossed_;  ///< edges: A - C = (r_x, r_y) and (r_y, -r_x), world axes
-  std::array<int, 4> known_point_{};    ///< highest known power, -1: none
+  std::array<int, 4> known_point_{};            ///< highest known power, -1: none
   Conflict conflict_;
   int sticking_count_ = 0;
   std::array<int, kSiteCount> sticking_{};  ///< indices into segment.loaded

@@ -12,20 +12,20 @@
 namespace vibratory_alignment {
 
 enum class EventKind {
-  touch,         ///< a contact starts out of flight (an impact)
-  reload,        ///< N rises from zero while the depth is still > 0
-  release,       ///< N falls to zero
-  close,         ///< the depth returns to zero
-  run_off,       ///< the foot leaves the end of the face
-  slip_reversal, ///< V = 0, slips on in the other direction
-  stick,         ///< V = 0 and friction holds
-  slip,          ///< friction no longer holds
-  part,          ///< two contacts that stick would have to move apart: one of them slips
-  enter,         ///< a point enters the other body through a face without contact
-  leave,         ///< ... and leaves it
-  drive_kink,    ///< jump or kink of an excitation
-  aligned,       ///< both lower corners in the slot, below the asked depth
-  inserted       ///< the floor or the asked depth is reached
+  touch,          ///< a contact starts out of flight (an impact)
+  reload,         ///< N rises from zero while the depth is still > 0
+  release,        ///< N falls to zero
+  close,          ///< the depth returns to zero
+  run_off,        ///< the foot leaves the end of the face
+  slip_reversal,  ///< V = 0, slips on in the other direction
+  stick,          ///< V = 0 and friction holds
+  slip,           ///< friction no longer holds
+  part,           ///< two contacts that stick would have to move apart: one of them slips
+  enter,          ///< a point enters the other body through a face without contact
+  leave,          ///< ... and leaves it
+  drive_kink,     ///< jump or kink of an excitation
+  aligned,        ///< both lower corners in the slot, below the asked depth
+  inserted        ///< the floor or the asked depth is reached
 };
 
 struct Event {
@@ -51,19 +51,19 @@ class Flight;
 
 struct Segment {
   Instant start;
-  State begin;                           ///< the state at its start
+  State begin;  ///< the state at its start
   double duration = 0.0;
-  int order = 0;                         ///< highest power that the series hold
-  const Flight* flight = nullptr;        ///< set: a leap in flight, in closed form instead of series (x ... drive_phi unused)
-  double flight_time = 0.0;              ///< time from the start of the flight to the start of the segment
-  Series x{}, y{}, phi{};                ///< positions
-  Series vx{}, vy{}, omega{};            ///< velocities
+  int order = 0;                   ///< highest power that the series hold
+  const Flight* flight = nullptr;  ///< set: a leap in flight, in closed form instead of series (x ... drive_phi unused)
+  double flight_time = 0.0;        ///< time from the start of the flight to the start of the segment
+  Series x{}, y{}, phi{};          ///< positions
+  Series vx{}, vy{}, omega{};      ///< velocities
   Series cos_phi{}, sin_phi{};
   Series drive_x{}, drive_y{}, drive_phi{};  ///< excitation forces and moment
-  ContactStates contacts;                ///< state of every site during the segment
+  ContactStates contacts;                    ///< state of every site during the segment
   int loaded_count = 0;
   std::array<ContactSeries, kSiteCount> loaded;  ///< the first loaded_count are valid
-  State end;                             ///< the state at its end (closed form in flight)
+  State end;                                     ///< the state at its end (closed form in flight)
   int event_count = 0;
   std::array<Event, kMaxEvents> events;  ///< what happens at its end
 

@@ -79,8 +79,9 @@ void decide_friction(const System& system, const State& state, const DriveForms&
     double t = 0.0;
     if (contact.ask != Ask::decide) {
       const Slip slip = mode.contacts[contact.site].slip;
-      t = slip == Slip::plus ? -system.friction * contact.normal_force
-          : slip == Slip::minus ? system.friction * contact.normal_force : 0.0;
+      t = slip == Slip::plus    ? -system.friction * contact.normal_force
+          : slip == Slip::minus ? system.friction * contact.normal_force
+                                : 0.0;
     }
     const Vec2 force{contact.normal_force * contact.kinematics.normal.x + t * contact.kinematics.tangent.x,
                      contact.normal_force * contact.kinematics.normal.y + t * contact.kinematics.tangent.y};
@@ -90,7 +91,8 @@ void decide_friction(const System& system, const State& state, const DriveForms&
     force_scale += contact.normal_force;
     moment_scale += contact.normal_force * reach_of(contact.kinematics.lever);
   }
-  const double ax = fx * system.x.inverse_inertia, ay = fy * system.y.inverse_inertia, alpha = m * system.phi.inverse_inertia;
+  const double ax = fx * system.x.inverse_inertia, ay = fy * system.y.inverse_inertia,
+               alpha = m * system.phi.inverse_inertia;
   for (int i = 0; i < problem.count; ++i) {
     const LoadedContact& a = loaded[asked[i]];
     const double arm = moment_of(a.kinematics.lever, a.kinematics.tangent);
@@ -146,7 +148,9 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
         contact.slip = contact.slip == Slip::regularized ? (v > 0.0 ? Slip::plus : Slip::minus) : Slip::regularized;
         mode.pins[i].slip = 1;
       } else if (contact.slip == Slip::none) {
-        contact.slip = std::abs(v) <= sliding_threshold(system) ? Slip::regularized : v > 0.0 ? Slip::plus : Slip::minus;
+        contact.slip = std::abs(v) <= sliding_threshold(system) ? Slip::regularized
+                       : v > 0.0                                ? Slip::plus
+                                                                : Slip::minus;
       }
       continue;
     }
@@ -223,12 +227,8 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
         contact = {};
         pins.face = face;
         break;
-      case EventKind::enter:
-        contact = {Phase::free, Face::none, Slip::none};
-        break;
-      case EventKind::slip_reversal:
-        zero_slip[index] = true;
-        break;
+      case EventKind::enter: contact = {Phase::free, Face::none, Slip::none}; break;
+      case EventKind::slip_reversal: zero_slip[index] = true; break;
       case EventKind::slip:
         if (system.regularization > 0.0) {
           zero_slip[index] = true;
@@ -236,17 +236,15 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
           broken[index] = {events.events[i].direction, events.events[i].zeros, false};
         }
         break;
-      case EventKind::part:
-        broken[index] = {events.events[i].direction, events.events[i].zeros, true};
-        break;
-      default:
-        break;
+      case EventKind::part: broken[index] = {events.events[i].direction, events.events[i].zeros, true}; break;
+      default: break;
     }
   }
   set_friction(system, state, drives_at_end, zero_slip, broken, mode);
   for (int i = 0; i < events.count; ++i) {
     Event& event = events.events[i];
-    if (event.kind == EventKind::slip_reversal && mode.contacts[static_cast<std::size_t>(event.site)].slip == Slip::stick)
+    if (event.kind == EventKind::slip_reversal &&
+        mode.contacts[static_cast<std::size_t>(event.site)].slip == Slip::stick)
       event.kind = EventKind::stick;
   }
   return mode;

@@ -36,8 +36,7 @@ void ContactWatch::book_peaks(const Segment& segment) {
       power *= segment.duration;
       bound += std::max(0.0, contact.normal_force[k] * power);
     }
-    if (bound > peak)
-      peak = std::max(peak, largest_value(contact.normal_force, segment.order, 0.0, segment.duration));
+    if (bound > peak) peak = std::max(peak, largest_value(contact.normal_force, segment.order, 0.0, segment.duration));
   }
 }
 

@@ -14,13 +14,15 @@ constexpr double kNodes[6] = {0.1252334085114689, 0.3678314989981802, 0.58731795
 constexpr double kWeights[6] = {0.2491470458134028, 0.2334925365383548, 0.2031674267230659,
                                 0.1600783285433462, 0.1069393259953184, 0.0471753363865118};
 
-/// Longest panel in radians of the flight's fastest motion: the products turn twice as fast. A series' step is one panel.
+/// Longest panel in radians of the flight's fastest motion: the products turn twice as fast. A series' step is one
+/// panel.
 constexpr double kPanel = 2.0;
 
 Load3 drive_at(const Segment& segment, double t) {
   if (segment.flight != nullptr) return segment.flight->drive_at(segment.flight_time + t);
   const int order = segment.order;
-  return {value_at(segment.drive_x, order, t), value_at(segment.drive_y, order, t), value_at(segment.drive_phi, order, t)};
+  return {value_at(segment.drive_x, order, t), value_at(segment.drive_y, order, t),
+          value_at(segment.drive_phi, order, t)};
 }
 
 double slope_at(const Series& series, int order, double t) {
@@ -37,8 +39,8 @@ double EnergyAccount::mechanical(const State& s) const {
     const double stretch = q - axis.anchor;
     return 0.5 * axis.inertia * v * v + 0.5 * axis.stiffness * stretch * stretch;
   };
-  return axis_energy(system_.x, s.x, s.vx) + axis_energy(system_.y, s.y, s.vy) + axis_energy(system_.phi, s.phi, s.omega) +
-         system_.weight * s.y;
+  return axis_energy(system_.x, s.x, s.vx) + axis_energy(system_.y, s.y, s.vy) +
+         axis_energy(system_.phi, s.phi, s.omega) + system_.weight * s.y;
 }
 
 void EnergyAccount::book(const Segment& segment) {
@@ -78,8 +80,10 @@ void EnergyAccount::book(const Segment& segment) {
   }
   double base_total = 0.0;
   for (std::size_t site = 0; site < kSiteCount; ++site) {
-    if (first) ledger_.initial += at_start[site];
-    else ledger_.release_loss += base_energy_[site] - at_start[site];
+    if (first)
+      ledger_.initial += at_start[site];
+    else
+      ledger_.release_loss += base_energy_[site] - at_start[site];
     base_energy_[site] = at_end[site];
     base_total += at_end[site];
   }
@@ -101,9 +105,11 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
     const double rate = slope_at(contact.depth, order, t);
     ledger_.base_loss += weight * damping_of(system_, face, cos_phi, sin_phi) * rate * rate;
-    ledger_.friction_loss -= weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
+    ledger_.friction_loss -=
+        weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
     if (!is_part_face(face) || system_.isotropic) continue;
-    // the normal turns: 1/2 (dk/dphi) phi' d^2, where k = C1 cos^2 + C2 sin^2 on the bottom, the other way round on sides
+    // the normal turns: 1/2 (dk/dphi) phi' d^2, where k = C1 cos^2 + C2 sin^2 on the bottom, the other way round on
+    // sides
     const double depth = value_at(contact.depth, order, t);
     const double sign = face == Face::bottom ? 1.0 : -1.0;
     const double slope = 2.0 * sign * (system_.stiffness_x - system_.stiffness_y) * sin_phi * cos_phi;

@@ -1,5 +1,5 @@
-// Energy ledger of a trial (MODEL.md "Energy ledger"), integrated over the segments by quadrature: an account of its own that
-// does not use the equations of motion, so that its residual judges them.
+// Energy ledger of a trial (MODEL.md "Energy ledger"), integrated over the segments by quadrature: an account of its
+// own that does not use the equations of motion, so that its residual judges them.
 #pragma once
 
 #include "mechanics/system.h"

@@ -1,4 +1,5 @@
-// What a trial ends in and what is reported of it (MODEL.md "Outcome of a trial"). Dimensionless; times since the start.
+// What a trial ends in and what is reported of it (MODEL.md "Outcome of a trial"). Dimensionless; times since the
+// start.
 #pragma once
 
 #include <array>
@@ -44,16 +45,16 @@ struct EnergyLedger {
   double initial = 0.0, final = 0.0;  ///< E
   double excitation_work = 0.0;
   double gripper_loss = 0.0, base_loss = 0.0, friction_loss = 0.0;
-  double release_loss = 0.0;          ///< spring energy dropped at release or run-off, minus what reloading brings back
-  double turning = 0.0;               ///< gain from 1/2 (dk/dphi) phi' d^2
-  double exchanged = 0.0;             ///< sum of what went in and out, the measure of the residual
-  double residual = 0.0;              ///< |balance| / exchanged
+  double release_loss = 0.0;  ///< spring energy dropped at release or run-off, minus what reloading brings back
+  double turning = 0.0;       ///< gain from 1/2 (dk/dphi) phi' d^2
+  double exchanged = 0.0;     ///< sum of what went in and out, the measure of the residual
+  double residual = 0.0;      ///< |balance| / exchanged
 };
 
 struct TrialResult {
   std::string scene;
   Outcome outcome = Outcome::running;
-  std::string failure;                 ///< why, when failed
+  std::string failure;  ///< why, when failed
   Mode mode = Mode::none;
   std::vector<ModeChange> mode_changes;
   std::optional<double> aligned_time;  ///< the alignment duration
@@ -65,8 +66,8 @@ struct TrialResult {
   std::optional<FirstContact> first_contact;
   std::optional<EnergyLedger> energy;
   std::string solver_name;
-  double solver_tolerance = 0.0;       ///< 0 for fixed-step solvers
-  double solver_step = 0.0;            ///< 0 for error-controlled solvers
+  double solver_tolerance = 0.0;  ///< 0 for fixed-step solvers
+  double solver_step = 0.0;       ///< 0 for error-controlled solvers
   SolverCounts counts;
   double cpu_seconds = 0.0;
 };

@@ -30,7 +30,10 @@ void force_series(const ContactFrame& frame, bool turning, const ContactSeries& 
 }  // namespace
 
 Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
-    : simulation_(simulation), system_(make_system(simulation.scene())), interval_(interval), with_events_(with_events) {}
+    : simulation_(simulation),
+      system_(make_system(simulation.scene())),
+      interval_(interval),
+      with_events_(with_events) {}
 
 /// Books peaks and impulses of the current segment up to `local_time`.
 void Sampler::integrate_to(double local_time) {
@@ -47,8 +50,8 @@ void Sampler::integrate_to(double local_time) {
     pending.impulse_x += integral(fx, order, integrated_to_, local_time);
     pending.impulse_y += integral(fy, order, integrated_to_, local_time);
     pending.normal_impulse += integral(contact.normal_force, order, integrated_to_, local_time);
-    pending.peak_normal_force = std::max(
-        pending.peak_normal_force, largest_value(contact.normal_force, order, integrated_to_, local_time));
+    pending.peak_normal_force =
+        std::max(pending.peak_normal_force, largest_value(contact.normal_force, order, integrated_to_, local_time));
   }
   integrated_to_ = local_time;
 }

@@ -15,27 +15,27 @@ namespace vibratory_alignment {
 /// One contact at the instant of a sample. World (slot) axes x right, y up.
 struct ContactSample {
   ContactState state;
-  double depth = 0.0;             ///< d, 0 outside
-  double normal_force = 0.0;      ///< N >= 0
-  double tangential_force = 0.0;  ///< T along t = n turned by -90 degrees
-  double normal_x = 0.0, normal_y = 1.0;  ///< n, the direction in which the base pushes the part
-  double point_x = 0.0, point_y = 0.0;    ///< contact point
-  double force_x = 0.0, force_y = 0.0;    ///< N n + T t, force on the part
-  double peak_normal_force = 0.0;         ///< largest N since the previous sample
+  double depth = 0.0;                       ///< d, 0 outside
+  double normal_force = 0.0;                ///< N >= 0
+  double tangential_force = 0.0;            ///< T along t = n turned by -90 degrees
+  double normal_x = 0.0, normal_y = 1.0;    ///< n, the direction in which the base pushes the part
+  double point_x = 0.0, point_y = 0.0;      ///< contact point
+  double force_x = 0.0, force_y = 0.0;      ///< N n + T t, force on the part
+  double peak_normal_force = 0.0;           ///< largest N since the previous sample
   double impulse_x = 0.0, impulse_y = 0.0;  ///< integral of the force since the previous sample
-  double normal_impulse = 0.0;            ///< integral of N since the previous sample
+  double normal_impulse = 0.0;              ///< integral of N since the previous sample
 };
 
 struct Sample {
   double time = 0.0;
-  bool is_event = false;          ///< an event instant between the regular ones (only on request)
-  bool is_last = false;           ///< the trial ends here
+  bool is_event = false;  ///< an event instant between the regular ones (only on request)
+  bool is_last = false;   ///< the trial ends here
   State state;
   std::array<ContactSample, kSiteCount> contacts;
   std::array<long, kSpotCount> impacts{};
   Mode mode = Mode::none;
-  double misalignment = 0.0;      ///< |x|
-  double progress = 0.0;          ///< 0 at the start, 1 when the part has reached the clearance of the slot, from |x|
+  double misalignment = 0.0;  ///< |x|
+  double progress = 0.0;      ///< 0 at the start, 1 when the part has reached the clearance of the slot, from |x|
 };
 
 class Sampler {

@@ -88,8 +88,7 @@ double SettlingWatch::difference(const State& a, const State& b) const {
 void SettlingWatch::compare() {
   if (next_ < kHistory) return;
   const auto at = [this](long index) -> const State& { return history_[static_cast<std::size_t>(index % kHistory)]; };
-  const double periods_left =
-      std::max(1.0, (time_limit_ - begin_) / period_ - static_cast<double>(next_));
+  const double periods_left = std::max(1.0, (time_limit_ - begin_) / period_ - static_cast<double>(next_));
   const double allowed = std::min(kLargestDifference, kDriftShare / (periods_left * periods_left));
   for (int subharmonic = 1; subharmonic <= kSubharmonics; ++subharmonic) {
     double older = 0.0, newer = 0.0;

@@ -36,16 +36,17 @@ class SettlingWatch {
   double difference(const State& a, const State& b) const;
 
   double time_limit_;
-  double period_ = 0.0;    ///< common period of the excitations, 0: they have none
+  double period_ = 0.0;  ///< common period of the excitations, 0: they have none
   double begin_ = 0.0;
-  double rate_ = 1.0;      ///< fastest excitation, to weigh velocities
-  long next_ = 0;          ///< index of the next instant
+  double rate_ = 1.0;  ///< fastest excitation, to weigh velocities
+  long next_ = 0;      ///< index of the next instant
   std::array<State, kHistory> history_;
   bool settled_ = false;
 };
 
-/// Common period of all excitations with an amplitude; without any, a sixteenth of the gripper's own period 2 pi (a motion
-/// without excitation that repeats itself after any time does so for ever); 0 when the frequencies have no common measure.
+/// Common period of all excitations with an amplitude; without any, a sixteenth of the gripper's own period 2 pi (a
+/// motion without excitation that repeats itself after any time does so for ever); 0 when the frequencies have no
+/// common measure.
 double common_period(const std::vector<Excitation>& excitations);
 
 /// Period of the slowest excitation.

@@ -24,10 +24,17 @@ double cpu_now() {
 class Simulation::Impl {
  public:
   Impl(const Scene& scene, const SimulationOptions& options)
-      : scene_(scene), options_(options), system_(make_system(scene)),
-        solver_(make_solver(system_, scene.excitations, scene.solver)), excitations_(scene.excitations),
-        limit_(options.until.value_or(scene.trial.time_limit)), contacts_(system_, slowest_period(scene.excitations)),
-        energy_(system_), settling_(scene.excitations, limit_), state_(system_.start), cpu_start_(cpu_now()) {}
+      : scene_(scene),
+        options_(options),
+        system_(make_system(scene)),
+        solver_(make_solver(system_, scene.excitations, scene.solver)),
+        excitations_(scene.excitations),
+        limit_(options.until.value_or(scene.trial.time_limit)),
+        contacts_(system_, slowest_period(scene.excitations)),
+        energy_(system_),
+        settling_(scene.excitations, limit_),
+        state_(system_.start),
+        cpu_start_(cpu_now()) {}
 
   bool advance() {
     if (ended_) return false;
@@ -64,8 +71,10 @@ class Simulation::Impl {
     if (!touch) throw std::invalid_argument("this scene has no touching height, so no pressing force can be set");
     system_.y.anchor = *touch - pressing_force;
     solver_->set_anchor_y(system_.y.anchor);
-    if (options_.energy && has_segment_) pending_anchor_ = system_.y.anchor;
-    else energy_.move_anchor_y(system_.y.anchor, system_.start);
+    if (options_.energy && has_segment_)
+      pending_anchor_ = system_.y.anchor;
+    else
+      energy_.move_anchor_y(system_.y.anchor, system_.start);
     settling_.restart(excitations_, has_segment_ ? segment().end_time() : 0.0);
   }
 
@@ -83,13 +92,16 @@ class Simulation::Impl {
       const auto spot = static_cast<Spot>(i);
       r.impacts[static_cast<std::size_t>(i)] = contacts_.impacts(spot);
       r.peak_force[static_cast<std::size_t>(i)] = contacts_.peak_force(spot);
-      if (scene_.trial.force_limit && contacts_.peak_force(spot) > *scene_.trial.force_limit) r.force_limit_exceeded = true;
+      if (scene_.trial.force_limit && contacts_.peak_force(spot) > *scene_.trial.force_limit)
+        r.force_limit_exceeded = true;
     }
     r.first_contact = contacts_.first_contact();
     if (options_.energy) r.energy = energy_.ledger();
     r.solver_name = scene_.solver.name;
-    if (scene_.solver.step) r.solver_step = *scene_.solver.step;
-    else r.solver_tolerance = scene_.solver.tolerance;
+    if (scene_.solver.step)
+      r.solver_step = *scene_.solver.step;
+    else
+      r.solver_tolerance = scene_.solver.tolerance;
     r.counts = solver_->counts();
     r.cpu_seconds = ended_ ? cpu_seconds_ : cpu_now() - cpu_start_;
     return r;
@@ -142,7 +154,8 @@ class Simulation::Impl {
         aligned_time_ = time_;
         if (!has_end) outcome_ = Outcome::aligned;
       }
-      const bool on_floor = event.kind == EventKind::touch && (event.site == Site::b1_floor || event.site == Site::b2_floor);
+      const bool on_floor =
+          event.kind == EventKind::touch && (event.site == Site::b1_floor || event.site == Site::b2_floor);
       if (on_floor || event.kind == EventKind::inserted) reached_end_ = true;
     }
     if (aligned_time_ && reached_end_) outcome_ = Outcome::inserted;

@@ -45,7 +45,7 @@ class Simulation {
   double time() const;
   State state() const;
   bool ended() const;
-  Mode mode() const;                 ///< mode up to now
+  Mode mode() const;  ///< mode up to now
   long impacts(Spot spot) const;
   /// The result so far; final once ended() is true.
   TrialResult result() const;

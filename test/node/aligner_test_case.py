@@ -37,6 +37,12 @@ class Listener:
             self.arrivals.append(time.time())
             self._changed.notify_all()
 
+    def forget(self, kept):
+        """Keeps the last `kept` messages."""
+        with self._changed:
+            start = len(self.messages) - kept
+            del self.messages[:start], self.arrivals[:start]
+
     def wait(self, condition, timeout=15.0):
         """Waits until condition(messages); True if it came true in time."""
         deadline = time.time() + timeout
@@ -75,20 +81,22 @@ class AlignerTestCase(unittest.TestCase):
         rospy.wait_for_service(self.node + '/' + service, 15.0)
         return rospy.ServiceProxy(self.node + '/' + service, Trigger)()
 
-    def reset(self, states):
-        """Goes back to the start; `states` then holds its sample alone."""
+    def reset(self, *listeners):
+        """Goes back to the start; each listener then holds the one message of it."""
         for _ in range(10):  # the node may know a new listener a little later than the listener the node
-            del states.messages[:], states.arrivals[:]
+            for listener in listeners:
+                listener.forget(0)
             self.assertTrue(self.call('reset').success)
-            if states.wait(lambda messages: messages and messages[-1].tau == 0.0, 2.0):
+            if all(listener.wait_for(1, 2.0) for listener in listeners):
                 time.sleep(0.1)
-                del states.messages[:-1], states.arrivals[:-1]
+                for listener in listeners:
+                    listener.forget(1)
                 return
-        self.fail('no state after the reset')
+        self.fail('not every topic has a message after the reset')
 
-    def run_to_end(self):
-        """Resets the trial, runs it and returns its result."""
-        self.call('reset')
+    def run_to_end(self, *listeners):
+        """Resets the trial, runs it and returns its result; the listeners then hold all of the trial."""
+        self.reset(*listeners)
         result = self.listen('result')
         time.sleep(0.3)  # a latched result of an earlier run is here by now
         earlier = len(result.messages)

@@ -28,14 +28,14 @@ class Flood(AlignerTestCase):
         for thread in threads:
             thread.start()
         try:
-            result = self.run_to_end()
+            result = self.run_to_end(states)
         finally:
             done.set()
             for thread in threads:
                 thread.join()
         self.assertEqual(result.outcome, 'time_limit')
-        self.assertGreater(sum(sent), 100)
-        instants = [state.tau for state in states.messages[-250:]]
+        self.assertGreater(sum(sent), 20)
+        instants = [state.tau for state in states.messages]
         for earlier, later in zip(instants, instants[1:]):
             self.assertAlmostEqual(later - earlier, 0.01, places=9)
 

@@ -48,7 +48,7 @@ class Reconfigure(AlignerTestCase):
 
     def test_disabled_excitation_lets_the_part_come_to_rest(self):
         self.client.update_configuration({'enabled': False, 'time_scale': 0.0})
-        result = self.run_to_end()
+        result = self.run_to_end(self.states)
         speeds = [abs(state.dimensionless.vy) for state in self.states.messages[-10:]]
         self.assertLess(max(speeds), 0.02)
         self.assertNotEqual(result.outcome, 'failed')

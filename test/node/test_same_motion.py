@@ -13,7 +13,7 @@ class SameMotion(AlignerTestCase):
     def test_states_are_equal_bit_for_bit(self):
         states = self.listen('state')
         reactions = [self.listen('reaction/a1'), self.listen('reaction/a2')]
-        self.run_to_end()
+        self.run_to_end(states, *reactions)
         forces = [{message.header.stamp: message.wrench.force for message in listener.messages}
                   for listener in reactions]
 

@@ -14,7 +14,7 @@ class Services(AlignerTestCase):
     def setUp(self):
         self.states = self.listen('state')
         self.reset(self.states)
-        del self.states.messages[:]
+        self.states.forget(0)
 
     def test_nothing_moves_before_the_start(self):
         time.sleep(0.5)
@@ -52,12 +52,11 @@ class Services(AlignerTestCase):
         self.assertEqual(len(self.states.messages), count)
 
     def test_reset_repeats_the_trial(self):
-        self.run_to_end()
+        self.run_to_end(self.states)
         first = [state for state in self.states.messages]
         self.assertFalse(self.call('start').success, 'the trial has ended')
         self.assertFalse(self.call('step').success)
-        del self.states.messages[:]
-        self.run_to_end()
+        self.run_to_end(self.states)
         self.assertEqual([(s.tau, s.dimensionless) for s in first],
                          [(s.tau, s.dimensionless) for s in self.states.messages])
 

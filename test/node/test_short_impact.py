@@ -13,7 +13,7 @@ class ShortImpact(AlignerTestCase):
 
     def test_peak_and_impulse_are_complete(self):
         states, reactions, contacts = self.listen('state'), self.listen('reaction/a1'), self.listen('contacts')
-        self.run_to_end()
+        self.run_to_end(states, reactions, contacts)
         forces = {message.header.stamp: message.wrench.force for message in reactions.messages}
         spots = {message.header.stamp: message.states for message in contacts.messages}
 

@@ -9,7 +9,7 @@ class SimTime(AlignerTestCase):
 
     def test_stamps_rise_from_above_zero(self):
         states = self.listen('state')
-        self.run_to_end()
+        self.run_to_end(states)
         stamps = [state.header.stamp for state in states.messages]
         self.assertGreater(len(stamps), 100)
         self.assertGreater(stamps[0].to_nsec(), 0)

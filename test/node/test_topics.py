@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Frames, stamps and rates of the topics."""
 import math
-import time
 
 import rostest
 
@@ -15,7 +14,7 @@ class Topics(AlignerTestCase):
     def test_frames_stamps_and_rates(self):
         listeners = {topic: self.listen(topic) for topic in FRAMES}
         markers = self.listen('markers')
-        result = self.run_to_end()
+        result = self.run_to_end(markers, *listeners.values())
         self.assertEqual(result.header.frame_id, 'slot')
 
         stamps = {}
@@ -28,7 +27,7 @@ class Topics(AlignerTestCase):
             for stamp, arrival in zip(stamps[topic], listener.arrivals):
                 self.assertAlmostEqual(stamp.to_sec(), arrival, delta=0.5)
         for topic in FRAMES:
-            self.assertEqual(stamps[topic][-100:], stamps['state'][-100:], 'one instant, one stamp')
+            self.assertEqual(stamps[topic], stamps['state'], 'one instant, one stamp')
 
         # 0.01 of 5 ms at a time scale of 0.01: 200 messages a second
         last = stamps['state'][-200:]
@@ -41,14 +40,13 @@ class Topics(AlignerTestCase):
 
     def test_contacts_agree_with_reactions(self):
         contacts, reactions = self.listen('contacts'), self.listen('reaction/a1')
-        self.run_to_end()
-        time.sleep(0.2)
+        self.run_to_end(contacts, reactions)
         compared = 0
         forces = {message.header.stamp: message.wrench.force for message in reactions.messages}
         for message in contacts.messages:
             for contact in message.states:
                 self.assertIn(contact.info, ('a1', 'a2', 'b1', 'b2'))
-                if contact.info != 'a1' or not contact.wrenches or message.header.stamp not in forces:
+                if contact.info != 'a1' or not contact.wrenches:
                     continue
                 force = forces[message.header.stamp]
                 self.assertEqual((force.x, force.z), (contact.total_wrench.force.x, contact.total_wrench.force.z))

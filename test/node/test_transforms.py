@@ -18,7 +18,7 @@ class Transforms(AlignerTestCase):
         buffer = tf2_ros.Buffer(rospy.Duration(60.0))
         tf2_ros.TransformListener(buffer)
         moving, states = self.listen('/tf', TFMessage), self.listen('state')
-        self.run_to_end()
+        self.run_to_end(moving, states)
 
         for edge, side in (('edge_a1', 1.0), ('edge_a2', -1.0)):
             place = buffer.lookup_transform('world', edge, rospy.Time(0)).transform
@@ -30,7 +30,7 @@ class Transforms(AlignerTestCase):
         self.assertGreater(len(stamps), 100)
 
         parts = {transform.header.stamp: transform for message in moving.messages for transform in message.transforms}
-        for state in states.messages[-100:]:
+        for state in states.messages:
             part = parts[state.header.stamp]
             self.assertEqual((part.header.frame_id, part.child_frame_id), ('slot', 'part'))
             place, turn = part.transform.translation, part.transform.rotation

@@ -9,7 +9,7 @@ class Trial(AlignerTestCase):
 
     def test_part_aligns(self):
         states = self.listen('state')
-        result = self.run_to_end()
+        result = self.run_to_end(states)
         self.assertEqual((result.scene, result.outcome), ('fig2', 'aligned'))
         self.assertGreater(result.duration, 0.0)
         self.assertGreater(sum(result.impacts), 0)
