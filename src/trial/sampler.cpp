@@ -80,6 +80,7 @@ void Sampler::read(double time, double local_time, Sample& sample) {
     const ContactSeries& series = segment.loaded[static_cast<std::size_t>(i)];
     ContactSample& contact = sample.contacts[static_cast<std::size_t>(series.site)];
     contact.normal_force = std::max(0.0, value_at(series.normal_force, segment.order, local_time));
+    contact.peak_normal_force = std::max(contact.peak_normal_force, contact.normal_force);
     contact.tangential_force = value_at(series.tangential_force, segment.order, local_time);
     contact.force_x = contact.normal_force * contact.normal_x + contact.tangential_force * contact.normal_y;
     contact.force_y = contact.normal_force * contact.normal_y - contact.tangential_force * contact.normal_x;

@@ -54,8 +54,11 @@ class Simulation::Impl {
   const Segment& segment() const { return solver_->segment(); }
 
   void cut(double t) {
-    const double duration = t - segment().start;
-    if (has_segment_ && duration >= 0.0 && duration < segment().duration) solver_->cut(duration);
+    if (!has_segment_) return;
+    // an instant has more digits than t: where t is the start but for these, nothing has passed yet
+    double duration = t - segment().start;
+    if (std::abs(duration) <= 2.3e-16 * std::abs(t)) duration = 0.0;
+    if (duration >= 0.0 && duration < segment().duration) solver_->cut(duration);
   }
 
   void set_excitations(const std::vector<Excitation>& excitations) {

@@ -1,0 +1,151 @@
+// Leaps in flight: the bounds on the closed form hold, and nothing is touched during a leap. Both by dense sampling of
+// motions with every kind of damping and drive.
+#include "solver/flight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "../support/random_scenes.h"
+#include "../support/scenes.h"
+#include "mechanics/site_rules.h"
+
+namespace vibratory_alignment {
+namespace {
+
+DriveForms random_drives(std::mt19937& random) {
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  DriveForms drives;
+  drives.count = 1 + static_cast<int>(2.9 * std::abs(u(random)));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(drives.count); ++i) {
+    drives.direction[i] = static_cast<Direction>(static_cast<int>(2.99 * std::abs(u(random))));
+    DriveForm& form = drives.form[i];
+    if (u(random) > 0.6) {
+      form.constant = u(random);
+      form.slope = u(random);
+    } else {
+      const double phase = 3.2 * u(random);
+      form.amplitude = u(random);
+      form.frequency = std::pow(10.0, 0.5 + u(random));
+      form.sin_phase = std::sin(phase);
+      form.cos_phase = std::cos(phase);
+    }
+  }
+  return drives;
+}
+
+// |q'|, |q''|, |q'''| stay below their bounds; the derivatives of q by differences.
+TEST(FreeMotionBounds, hold_at_every_sampled_time) {
+  std::mt19937 random(81);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int tried = 0;
+  for (int i = 0; i < 400; ++i) {
+    Axis axis;
+    axis.moves = true;
+    axis.inertia = std::pow(10.0, u(random));
+    axis.inverse_inertia = 1.0 / axis.inertia;
+    axis.stiffness = i % 7 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
+    axis.damping = i % 5 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
+    if (i % 11 == 0) axis.damping = 2.0 * std::sqrt(axis.stiffness * axis.inertia);
+    const DriveForms drives = random_drives(random);
+    FreeMotion motion(static_cast<std::size_t>(drives.count));
+    motion.begin(axis, u(random), u(random), 0.3 * u(random));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(drives.count); ++k) motion.add(drives.form[k]);
+    motion.settle();
+    if (!motion.exact()) continue;
+    ++tried;
+    const double end = 5.0, h = 1e-4 / std::max(1.0, motion.rate());
+    const FreeMotion::Bounds bounds = motion.bounds(end);
+    const auto velocity = [&](double t) {
+      double q = 0.0, v = 0.0;
+      motion.at(t, q, v);
+      return v;
+    };
+    for (int k = 1; k < 300; ++k) {
+      const double t = end * k / 300.0, v = velocity(t), after = velocity(t + h), before = velocity(t - h);
+      const double second = (after - before) / (2.0 * h), third = (after - 2.0 * v + before) / (h * h);
+      ASSERT_LE(std::abs(v), bounds.rate * (1.0 + 1e-12)) << i;
+      ASSERT_LE(std::abs(second), bounds.second * (1.0 + 1e-6) + 1e-9) << i;
+      ASSERT_LE(std::abs(third), bounds.third * (1.0 + 1e-4) + 1e-6 * bounds.second / h) << i;
+    }
+  }
+  EXPECT_GT(tried, 200);
+}
+
+/// The deepest any site of the system is inside the other body.
+double deepest(const System& system, const State& state) {
+  double depth = -INFINITY;
+  for (int i = 0; i < kSiteCount; ++i) {
+    const auto site = static_cast<Site>(i);
+    if (!site_in_use(system, site)) continue;
+    const Vec2 p = site_point(system, state, site);
+    for (int half = 0; half < region_count(site); ++half) {
+      const Region region = site_region(system, site, half);
+      double least = INFINITY;
+      for (int j = 0; j < region.count; ++j) least = std::min(least, region.conditions[j].value(p));
+      depth = std::max(depth, least);
+    }
+  }
+  return depth;
+}
+
+TEST(Flight, nothing_is_touched_during_a_leap) {
+  int leaps = 0, long_ones = 0;
+  for (unsigned seed = 1; seed <= 400; ++seed) {
+    const Scene scene = test::random_scene(seed);
+    const System system = make_system(scene);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    State state = system.start;
+    state.vx = u(random);
+    state.vy = u(random);
+    state.omega = 3.0 * u(random);
+    if (deepest(system, state) > 0.0) continue;
+    const DriveForms drives = random_drives(random);
+    Flight flight(static_cast<std::size_t>(drives.count));
+    flight.begin(system, state, drives, {});
+    if (!flight.exact()) continue;
+    const double longest = 2.0;
+    double t = 0.0;
+    for (int leap = 0; leap < 30; ++leap) {
+      flight.at(t, state);
+      const double free = flight.free_time(system, t, state, {}, {}, {}, longest);
+      ASSERT_GE(free, 0.0);
+      ASSERT_LE(free, longest);
+      if (free == 0.0) break;
+      ++leaps;
+      long_ones += free > 0.02;
+      for (int k = 0; k <= 200; ++k) {
+        State inside = state;
+        flight.at(t + free * k / 200.0, inside);
+        ASSERT_LE(deepest(system, inside), 1e-13) << "seed " << seed << ", leap " << leap << " of " << free << " at " << t;
+      }
+      t += free;
+      if (t > 10.0) break;
+    }
+  }
+  EXPECT_GT(leaps, 500);
+  EXPECT_GT(long_ones, 200);
+}
+
+// On its way out of a contact a site starts at depth 0 and must be seen as leaving, at any speed.
+TEST(Flight, a_site_that_leaves_its_face_is_no_hindrance) {
+  const System system = make_system(test::scene_of(test::plain, {"gripper.anchor.phi=0.0"}));
+  for (const double speed : {1e-6, 1e-3, 1.0}) {
+    State state{0.21, system.base_distance, 0.0, 0.0, speed, 0.0};
+    Pins pins{};
+    pins[0].face = Face::bottom;
+    Flight flight(0);
+    flight.begin(system, state, {}, {});
+    const double free = flight.free_time(system, 0.0, state, {}, pins, {}, 1.0);
+    // it turns no way, and is back on the base after 2 v/g
+    const double back = 2.0 * speed / (system.base_distance - system.y.anchor);
+    EXPECT_GT(free, 0.4 * std::min(back, 1.0)) << speed;
+    EXPECT_LT(free, 1.05 * back) << speed;
+  }
+}
+
+}  // namespace
+}  // namespace vibratory_alignment

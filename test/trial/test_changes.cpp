@@ -1,0 +1,256 @@
+// Changes while a trial runs: they enter at a defined instant, keep the phase, and the motion goes on as a new trial that
+// starts there would.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../support/runs.h"
+#include "../support/scenes.h"
+#include "trial/sampler.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::scene_of;
+
+const std::string bouncing = R"(
+part: {half_width: 0.673, base_distance: 0.9015, inertia: 0.149}
+slot: {clearance: 0.09}
+gripper: {stiffness: {x: 0.5, phi: 30.0}, damping: {x: 0.1, y: 0.1, phi: 1.33}, anchor: {x: 0.2, y: 0.65}}
+base: {stiffness: {x: 3648.0, y: 7600.0}, damping: {x: 9.96, y: 20.75}}
+contacts: [edges]
+friction: {coefficient: 0.319}
+excitation: {amplitude: 1.0, frequency: 20.0, phase: 0.3}
+initial: {x: 0.2, y: 0.895, phi: 0.025}
+trial: {time_limit: 4.0, aligned_depth: 5.0}
+solver: {tolerance: 1.0e-12}
+)";
+
+/// Runs to `when`, makes the changes there and goes on to the end.
+TrialResult changed_run(const Scene& scene, double when, const std::vector<Excitation>& excitations, State& at_change) {
+  SimulationOptions options;
+  options.until = scene.trial.time_limit;
+  Simulation simulation(scene, options);
+  bool changed = false;
+  while (simulation.advance()) {
+    const Segment& g = simulation.segment();
+    if (changed || when >= g.end_time()) continue;
+    simulation.cut(when);
+    at_change = g.end;
+    EXPECT_EQ(g.end_time(), when);
+    simulation.set_excitations(excitations);
+    changed = true;
+  }
+  return simulation.result();
+}
+
+/// A part in the air at `when`: there the state alone says how it goes on.
+TrialResult as_new_trial(Scene scene, double when, const State& state, const std::vector<Excitation>& excitations, double phase) {
+  scene.initial = {state.x, state.y, state.phi, state.vx, state.vy, state.omega};
+  scene.excitations = excitations;
+  scene.excitations[0].phase = phase;
+  scene.trial.time_limit -= when;
+  return test::run(scene, {}, scene.trial.time_limit);
+}
+
+TEST(Changes, of_the_frequency_keep_the_phase) {
+  for (const Waveform waveform : {Waveform::sine, Waveform::square, Waveform::triangle})
+    for (const double when : {0.5, 1.0, 1.37}) {
+      Scene scene = scene_of(bouncing);
+      scene.excitations[0].waveform = waveform;
+      std::vector<Excitation> faster = scene.excitations;
+      faster[0].frequency = 31.0;
+      faster[0].amplitude = 1.2;
+      State state;
+      const TrialResult result = changed_run(scene, when, faster, state);
+      const TrialResult expected = as_new_trial(scene, when, state, faster, 20.0 * when + 0.3);
+      // what rounding of the phase, and of the cut, makes of some ten impacts
+      EXPECT_LT(test::distance(result.final_state, expected.final_state), 1e-9) << when;
+    }
+}
+
+// A jump of the phase itself would show: the same change with the phase counted from zero gives another motion.
+TEST(Changes, would_show_a_jump_of_the_phase) {
+  const Scene scene = scene_of(bouncing);
+  std::vector<Excitation> faster = scene.excitations;
+  faster[0].frequency = 31.0;
+  State state;
+  const TrialResult result = changed_run(scene, 1.37, faster, state);
+  EXPECT_GT(test::distance(result.final_state, as_new_trial(scene, 1.37, state, faster, 0.3).final_state), 1e-3);
+}
+
+TEST(Changes, of_the_amplitude_to_zero_end_the_excitation) {
+  const Scene scene = scene_of(bouncing);
+  std::vector<Excitation> off = scene.excitations;
+  off[0].amplitude = 0.0;
+  State state;
+  const TrialResult result = changed_run(scene, 1.0, off, state);
+  EXPECT_LT(test::distance(result.final_state, as_new_trial(scene, 1.0, state, off, 0.0).final_state), 1e-9);
+}
+
+// The same settings again, at any instant, are no change.
+TEST(Changes, to_what_it_is_change_nothing) {
+  const Scene scene = scene_of(bouncing);
+  const TrialResult plain = test::run(scene, {}, 4.0);
+  for (const double when : {0.1, 0.777, 2.0}) {
+    State state;
+    const TrialResult again = changed_run(scene, when, scene.excitations, state);
+    EXPECT_LT(test::distance(again.final_state, plain.final_state), 1e-9);
+    EXPECT_EQ(again.impacts, plain.impacts);
+  }
+}
+
+// ... also at the very instants of the events, where forces, depths and slip are exactly zero and must stay so.
+TEST(Changes, at_events_keep_what_is_known_to_be_zero) {
+  for (const char* friction : {"friction={coefficient: 0.319}", "friction={coefficient: 0.9}", "friction=null",
+                               "friction={coefficient: 0.3, regularization: 2.0e-3}"})
+    for (const char* base : {"base.recovery=false", "base.recovery=true", "base.damping=null"}) {
+      const Scene scene = scene_of(bouncing, {friction, base});
+      const TrialResult plain = test::run(scene, {}, 4.0);
+      SimulationOptions options;
+      options.until = 4.0;
+      Simulation simulation(scene, options);
+      double last = -1.0;
+      while (simulation.advance()) {
+        const Segment& g = simulation.segment();
+        if (g.event_count == 0 || g.end_time() <= last || g.end_time() >= 4.0) continue;
+        last = g.end_time();
+        simulation.set_excitations(scene.excitations);
+      }
+      const TrialResult result = simulation.result();
+      EXPECT_EQ(result.impacts, plain.impacts) << friction << " " << base;
+      EXPECT_LT(test::distance(result.final_state, plain.final_state), 1e-8) << friction << " " << base;
+      EXPECT_NE(result.outcome, Outcome::failed) << result.failure;
+      EXPECT_LT(result.energy->residual, 1e-9);
+    }
+}
+
+// A cut where an event has just been, given as a double: it leaves nothing of the segment, and what is zero stays zero.
+TEST(Changes, cuts_at_events_keep_what_is_known_to_be_zero) {
+  for (const char* friction : {"friction={coefficient: 0.319}", "friction={coefficient: 0.9}", "friction=null",
+                               "friction={coefficient: 0.3, regularization: 2.0e-3}"})
+    for (const char* base : {"base.recovery=false", "base.recovery=true", "base.damping=null"}) {
+      const Scene scene = scene_of(bouncing, {friction, base});
+      const TrialResult plain = test::run(scene, {}, 4.0);
+      SimulationOptions options;
+      options.until = 4.0;
+      Simulation simulation(scene, options);
+      double event = -1.0;
+      while (simulation.advance()) {
+        const Segment& g = simulation.segment();
+        if (g.start.value() == event) simulation.cut(event);
+        event = g.event_count > 0 ? g.end_time() : -1.0;
+      }
+      const TrialResult result = simulation.result();
+      EXPECT_EQ(result.impacts, plain.impacts) << friction << " " << base;
+      EXPECT_LT(test::distance(result.final_state, plain.final_state), 1e-8) << friction << " " << base;
+    }
+}
+
+// Asked for at a double that an event's instant rounds to, a change enters there and not a segment later.
+TEST(Changes, at_an_event_enter_at_the_event) {
+  const Scene scene = scene_of(bouncing);
+  int tried = 0;
+  for (const test::TimedEvent& e : test::events_of(scene, 4.0)) {
+    Simulation simulation(scene);
+    while (simulation.advance() && simulation.segment().start.value() != e.time) {
+    }
+    if (simulation.ended() || simulation.segment().duration == 0.0) continue;
+    simulation.cut(e.time);
+    EXPECT_LE(std::abs(simulation.segment().end_time() - e.time), 1e-15 * e.time) << e.time;
+    ++tried;
+  }
+  EXPECT_GT(tried, 20);
+}
+
+TEST(Changes, before_the_start_enter_at_the_start) {
+  const Scene scene = scene_of(bouncing);
+  std::vector<Excitation> other = scene.excitations;
+  other[0].frequency = 13.0;
+  other[0].amplitude = 0.8;
+  Scene expected = scene;
+  expected.excitations = other;
+  Simulation simulation(scene);
+  simulation.set_excitations(other);
+  while (simulation.advance()) {
+  }
+  EXPECT_EQ(test::distance(simulation.result().final_state, test::run(expected).final_state), 0.0);
+}
+
+const std::vector<std::string> pressed = {"gripper={stiffness: {x: 0.5, phi: 30.0}, damping: {x: 0.1, y: 0.1, phi: 1.33}, pressing_force: 0.2}"};
+
+// f0 = y_touch - y_a, y_touch that of the start: the anchor moves by the difference.
+TEST(Changes, of_the_press_move_the_anchor) {
+  for (const double when : {0.0, 0.6, 1.3}) {
+    const Scene scene = scene_of(bouncing, pressed);
+    SimulationOptions options;
+    options.until = 4.0;
+    Simulation simulation(scene, options);
+    State state = make_system(scene).start;
+    bool changed = when == 0.0;
+    if (changed) simulation.set_pressing_force(0.35);
+    while (simulation.advance()) {
+      if (changed || when >= simulation.segment().end_time()) continue;
+      simulation.cut(when);
+      state = simulation.segment().end;
+      simulation.set_pressing_force(0.35);
+      changed = true;
+    }
+    Scene rest = scene;
+    rest.gripper.pressing_force.reset();
+    rest.gripper.anchor_y = make_system(scene).y.anchor - 0.15;
+    rest.initial = {state.x, state.y, state.phi, state.vx, state.vy, state.omega};
+    rest.excitations[0].phase = 20.0 * when + 0.3;
+    rest.trial.time_limit = 4.0 - when;
+    const TrialResult expected = test::run(rest, {}, rest.trial.time_limit), result = simulation.result();
+    EXPECT_LT(test::distance(result.final_state, expected.final_state), 1e-9) << when;
+    // what the anchor's jump puts into the spring is work from outside: the ledger knows
+    EXPECT_LT(result.energy->residual, 1e-9) << when;
+  }
+}
+
+TEST(Changes, of_the_press_need_a_height_of_touch) {
+  Simulation simulation(scene_of(bouncing, {"initial={x: 0.0, y: 0.95, phi: 0.0}"}));
+  EXPECT_THROW(simulation.set_pressing_force(0.3), std::invalid_argument);
+}
+
+// Cuts alone, wherever they are, only shorten steps.
+TEST(Changes, cuts_do_not_change_the_motion) {
+  const Scene scene = scene_of(bouncing);
+  const TrialResult plain = test::run(scene, {}, 4.0);
+  for (const double interval : {0.5, 0.03, 0.0017}) {
+    SimulationOptions options;
+    options.until = 4.0;
+    Simulation simulation(scene, options);
+    Sampler sampler(simulation, interval);
+    Sample sample;
+    while (sampler.next(sample)) simulation.cut(sampler.time());
+    EXPECT_LT(test::distance(simulation.result().final_state, plain.final_state), 1e-10) << interval;
+    EXPECT_EQ(simulation.result().impacts, plain.impacts);
+    EXPECT_LT(simulation.result().energy->residual, 1e-10);
+  }
+}
+
+// A change is judged anew: what had nearly settled goes on.
+TEST(Changes, restart_the_watch_for_settling) {
+  const Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.5}, damping: {y: 1.0}}", "excitation={amplitude: 0.2, frequency: 6.0}",
+                                            "base={stiffness: {y: 1.0e3}, damping: {y: 60}}", "trial.time_limit=1000"});
+  const double alone = test::run(scene).final_time;
+  Simulation simulation(scene);
+  bool changed = false;
+  std::vector<Excitation> faster = scene.excitations;
+  faster[0].frequency = 9.0;
+  while (simulation.advance()) {
+    if (changed || simulation.segment().end_time() < 0.9 * alone) continue;
+    simulation.set_excitations(faster);
+    changed = true;
+  }
+  EXPECT_EQ(simulation.result().outcome, Outcome::stalled);
+  // at least the 16 periods that a judgement looks back
+  EXPECT_GT(simulation.result().final_time, 0.9 * alone + 16.0 * 2.0 * 3.14159265358979323846 / 9.0);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
