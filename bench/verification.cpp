@@ -10,7 +10,7 @@
 
 #include "../test/reference/reference_cases.h"
 #include "model/scene_loader.h"
-#include "solver/solver.h"
+#include "trial/make_solver.h"
 #include "trial/simulation.h"
 
 namespace va = vibratory_alignment;

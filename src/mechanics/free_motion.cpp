@@ -19,6 +19,8 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   slope_ = 0.0;
   exact_ = true;
   sines_.clear();
+  p0_ = p1_ = p2_ = p3_ = 0.0;
+  oscillation_ = {};
   if (!axis_.moves) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   decay_ = 0.5 * h / m;
@@ -48,7 +50,6 @@ void FreeMotion::add(const DriveForm& form) {
 void FreeMotion::settle() {
   if (!axis_.moves || !exact_) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
-  p0_ = p1_ = p2_ = p3_ = 0.0;
   if (k > 0.0) {
     p1_ = slope_ / k;
     p0_ = axis_.anchor + (constant_ - h * p1_) / k;
@@ -63,46 +64,58 @@ void FreeMotion::settle() {
     p2_ = 0.5 * constant_ / m;
     p3_ = slope_ / (6.0 * m);
   }
-  double q = 0.0, v = 0.0;
-  particular(0.0, q, v);
-  c_factor_ = start_q_ - q;
-  s_factor_ = start_v_ - v;
+  c_factor_ = start_q_ - p0_;
+  s_factor_ = start_v_ - p1_;
+  for (const Sine& sine : sines_) {
+    c_factor_ -= sine.cos_amplitude;
+    s_factor_ -= sine.frequency * sine.sin_amplitude;
+  }
+  oscillation_ = oscillation_bounds();
 }
 
-void FreeMotion::particular(double t, double& q, double& v) const {
-  q = p0_ + t * (p1_ + t * (p2_ + t * p3_));
-  v = p1_ + t * (2.0 * p2_ + t * 3.0 * p3_);
+/// Change of the particular solution since t = 0.
+void FreeMotion::add_particular(double t, double& q, double& v) const {
+  q += t * (p1_ + t * (p2_ + t * p3_));
+  v += t * (2.0 * p2_ + t * 3.0 * p3_);
   for (const Sine& sine : sines_) {
-    const double s = std::sin(sine.frequency * t), c = std::cos(sine.frequency * t);
-    q += sine.sin_amplitude * s + sine.cos_amplitude * c;
-    v += sine.frequency * (sine.sin_amplitude * c - sine.cos_amplitude * s);
+    const double half_s = std::sin(0.5 * sine.frequency * t), half_c = std::cos(0.5 * sine.frequency * t);
+    const double s = 2.0 * half_s * half_c, c_change = -2.0 * half_s * half_s;
+    q += sine.sin_amplitude * s + sine.cos_amplitude * c_change;
+    v += sine.frequency * (sine.sin_amplitude * c_change - sine.cos_amplitude * s);
   }
 }
 
-void FreeMotion::homogeneous(double t, double& c, double& s, double& c_rate, double& s_rate) const {
-  // S solves the free equation with S(0) = 0, S'(0) = 1; C = S' + 2a S has C(0) = 1, C'(0) = 0; C' = -(k/m) S
+/// C - 1 and S: S solves the free equation with S(0) = 0, S'(0) = 1; C = S' + 2a S has C(0) = 1, C'(0) = 0.
+void FreeMotion::homogeneous(double t, double& c_change, double& s) const {
   if (square_ < 0.0) {
     const double envelope = std::exp(-decay_ * t);
-    s = envelope * std::sin(root_ * t) / root_;
-    s_rate = envelope * std::cos(root_ * t) - decay_ * s;
+    const double half_s = std::sin(0.5 * root_ * t), half_c = std::cos(0.5 * root_ * t);
+    s = envelope * 2.0 * half_s * half_c / root_;
+    c_change = -2.0 * envelope * half_s * half_s + std::expm1(-decay_ * t) + decay_ * s;
   } else if (square_ > 0.0) {
     // rates a -+ root; the slow one without cancellation
     const double fast = decay_ + root_, slow = axis_.stiffness / axis_.inertia / fast;
-    const double slow_part = std::exp(-slow * t), ratio = -std::expm1(-2.0 * root_ * t);
-    s = slow_part * ratio / (2.0 * root_);
-    s_rate = slow_part * (1.0 - ratio) - slow * s;
+    const double slow_change = std::expm1(-slow * t), ratio = -std::expm1(-2.0 * root_ * t);
+    s = (1.0 + slow_change) * ratio / (2.0 * root_);
+    c_change = slow_change + slow * s;
   } else {
-    const double envelope = std::exp(-decay_ * t);
-    s = t * envelope;
-    s_rate = envelope - decay_ * s;
+    s = t * std::exp(-decay_ * t);
+    c_change = std::expm1(-decay_ * t) + decay_ * s;
   }
-  c = s_rate + 2.0 * decay_ * s;
-  c_rate = -axis_.stiffness / axis_.inertia * s;
 }
 
 FreeMotion::Bounds FreeMotion::bounds(double end) const {
+  Bounds b = oscillation_;
+  const double p2 = std::abs(p2_), p3 = std::abs(p3_);
+  b.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
+  b.second += 2.0 * p2 + 6.0 * p3 * end;
+  b.third += 6.0 * p3;
+  return b;
+}
+
+/// Bounds of all but the polynomial part, for all times.
+FreeMotion::Bounds FreeMotion::oscillation_bounds() const {
   Bounds b;
-  if (!axis_.moves) return b;
   const double c = c_factor_, s = s_factor_;
   const auto add = [&b](double amplitude, double rate) {
     b.rate += amplitude * rate;
@@ -125,10 +138,6 @@ FreeMotion::Bounds FreeMotion::bounds(double end) const {
     b.third += 3.37 * g * decay_ * decay_;
   }
   for (const Sine& sine : sines_) add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
-  const double p2 = std::abs(p2_), p3 = std::abs(p3_);
-  b.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
-  b.second += 2.0 * p2 + 6.0 * p3 * end;
-  b.third += 6.0 * p3;
   return b;
 }
 
@@ -145,11 +154,12 @@ void FreeMotion::at(double t, double& q, double& v) const {
     v = 0.0;
     return;
   }
-  double c, s, c_rate, s_rate;
-  homogeneous(t, c, s, c_rate, s_rate);
-  particular(t, q, v);
-  q += c_factor_ * c + s_factor_ * s;
-  v += c_factor_ * c_rate + s_factor_ * s_rate;
+  // all as changes since the start: what is far larger than the motion cancels in them
+  double c_change = 0.0, s = 0.0;
+  homogeneous(t, c_change, s);
+  q = start_q_ + c_factor_ * c_change + s_factor_ * s;
+  v = start_v_ - c_factor_ * axis_.stiffness / axis_.inertia * s + s_factor_ * (c_change - 2.0 * decay_ * s);
+  add_particular(t, q, v);
 }
 
 }  // namespace vibratory_alignment

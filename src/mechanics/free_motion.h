@@ -41,9 +41,9 @@ class FreeMotion {
     double frequency, sin_amplitude, cos_amplitude;  ///< of the response
   };
 
-  /// Response of the start: q = a C(t) + b S(t); C and S as in docs/hybrid_step.md "Flight".
-  void homogeneous(double t, double& c, double& s, double& c_rate, double& s_rate) const;
-  void particular(double t, double& q, double& v) const;
+  Bounds oscillation_bounds() const;
+  void homogeneous(double t, double& c_change, double& s) const;
+  void add_particular(double t, double& q, double& v) const;
 
   Axis axis_;
   double start_q_ = 0.0, start_v_ = 0.0;
@@ -51,6 +51,7 @@ class FreeMotion {
   bool exact_ = true;
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
+  Bounds oscillation_;                                ///< of the parts that the polynomial is not
   double c_factor_ = 0.0, s_factor_ = 0.0;
   std::vector<Sine> sines_;
 };

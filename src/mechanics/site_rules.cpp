@@ -100,11 +100,13 @@ void place_contacts(const System& system, const State& state, ContactStates& con
         }
       }
       if (!inside) continue;
-      // a corner below the floor level but beside the slot is in the base, not on the floor
-      if (nearest == Face::floor && std::abs(p.x) > system.slot_half_width) continue;
-      contact.face = nearest;
       contact.phase = Phase::free;
-      if (nearest == Face::none) continue;
+      // a corner below the floor level but beside the slot is in the base, not on the floor, unless it presses a wall
+      const bool beside = nearest == Face::floor && std::abs(p.x) > system.slot_half_width;
+      const Face corner_face = beside ? contacts[i - 2].face : Face::none;
+      if (nearest == Face::none || (beside && corner_face != Face::right_wall && corner_face != Face::left_wall))
+        continue;
+      contact.face = nearest;
       const ContactKinematics k = contact_kinematics(system, state, site, nearest);
       const double force =
           stiffness_of(system, nearest, c, s) * k.depth + damping_of(system, nearest, c, s) * k.depth_rate;

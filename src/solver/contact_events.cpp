@@ -5,6 +5,7 @@
 
 #include "mechanics/site_rules.h"
 #include "solver/polynomial_roots.h"
+#include "solver/series_noise.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -12,8 +13,17 @@ namespace {
 /// Events closer together than this (relative to their time) are one.
 constexpr double kCoincidence = 4e-16;
 
-/// A sliding velocity this small, relative to the speed of the part, is zero.
+/// A sliding velocity this small, relative to the speed of the part, may be zero.
 constexpr double kZeroSlip = 1e-13;
+
+/// Rounding of a length relative to those that it is made of.
+constexpr double kLengthRounding = 3e-16;
+
+/// One this large is not, nor is a sliding acceleration relative to that of the part.
+constexpr double kSurelySliding = 1e-8;
+
+/// Factor on rounding below which V is taken as zero throughout.
+constexpr double kRestAllowance = 10.0;
 
 class Search {
  public:
@@ -35,7 +45,7 @@ class Search {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
       switch (segment_.contacts[i].phase) {
-        case Phase::loaded: guard_loaded(site, segment_.loaded[index++]); break;
+        case Phase::loaded: guard_loaded(site, index++); break;
         case Phase::unloaded: guard_unloaded(site); break;
         case Phase::outside: guard_outside(site); break;
         case Phase::free: guard_free(site); break;
@@ -47,7 +57,7 @@ class Search {
   }
 
  private:
-  void offer(double time, EventKind kind, Site site, Face face = Face::none, int direction = 0) {
+  void offer(double time, EventKind kind, Site site, Face face = Face::none) {
     if (time == kNoRoot) return;
     const double slack = kCoincidence * time;
     if (found_.count > 0 && time > found_.time + slack) return;
@@ -56,7 +66,7 @@ class Search {
       found_.count = 0;
     }
     if (found_.count == kMaxEvents) return;
-    found_.events[found_.count++] = {kind, site, face, direction, 2};
+    found_.events[found_.count++] = {kind, site, face};
   }
 
   Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site); }
@@ -162,19 +172,18 @@ class Search {
   }
 
   /// A contact that slides in name only: at its friction limit, but held by another one. V is rounding.
-  bool stays_at_rest(const Series& slip_velocity) const {
+  bool stays_at_rest(int loaded) {
+    const Series& v = segment_.loaded[loaded].slip_velocity;
+    if (std::abs(v[0]) > kSurelySliding * speed_ || std::abs(v[1]) > kSurelySliding * acceleration_) return false;
+    if (!noise_known_) noise_ = series_noise(system_, segment_, duration_, kRestAllowance);
+    noise_known_ = true;
     double sum = 0.0, power = 1.0;
-    for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(slip_velocity[k]) * power;
-    // rounding of the speeds, and of the forces that should balance
-    double push = 0.0;
-    for (int i = 0; i < segment_.loaded_count; ++i) push += std::abs(segment_.loaded[i].normal_force[0]);
-    const double reach = system_.half_width + system_.base_distance;
-    const double mobility =
-        std::max(system_.x.inverse_inertia, system_.y.inverse_inertia) + reach * reach * system_.phi.inverse_inertia;
-    return sum <= kZeroSlip * (speed_ + push * mobility * duration_);
+    for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(v[k]) * power;
+    return sum <= noise_.slip_rate[loaded] * duration_ + kZeroSlip * speed_;
   }
 
-  void guard_loaded(Site site, const ContactSeries& contact) {
+  void guard_loaded(Site site, int loaded) {
+    const ContactSeries& contact = segment_.loaded[loaded];
     const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
     const SitePins& pins = pins_[static_cast<std::size_t>(site)];
     offer(first_fall(contact.normal_force, order_, duration_, pins.normal), EventKind::release, site);
@@ -186,7 +195,7 @@ class Search {
       case Slip::plus:
       case Slip::minus: {
         const double sign = state.slip == Slip::plus ? 1.0 : -1.0;
-        if (stays_at_rest(contact.slip_velocity)) break;
+        if (pins.slip > MotionSeries::kHeldPowers || stays_at_rest(loaded)) break;
         for (int k = 0; k <= order_; ++k) g[k] = sign * contact.slip_velocity[k];
         g[0] -= kTanhSaturation * system_.regularization;
         offer(first_fall(g, order_, duration_, pins.slip), EventKind::slip_reversal, site);
@@ -195,7 +204,9 @@ class Search {
       case Slip::stick:
         for (const double sign : {1.0, -1.0}) {
           for (int k = 0; k < order_; ++k) g[k] = f * contact.normal_force[k] - sign * contact.tangential_force[k];
-          offer(first_fall(g, order_ - 1, duration_, 0), EventKind::slip, site, Face::none, sign > 0.0 ? -1 : 1);
+          const int zeros = sign > 0.0 ? pins.hold_plus : pins.hold_minus;
+          if (zeros < MotionSeries::kHeldPowers)
+            offer(first_fall(g, order_ - 1, duration_, zeros), EventKind::slip, site);
         }
         break;
       case Slip::regularized:
@@ -231,6 +242,13 @@ class Search {
     guard_limits(site, face);
   }
 
+  /// A condition that holds by no more than its last digits: its change decides.
+  bool is_rounding(double condition) const {
+    const double size = std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width + system_.base_distance +
+                        system_.slot_half_width;
+    return condition > 0.0 && condition <= kLengthRounding * size;
+  }
+
   void guard_outside(Site site) {
     const auto index = static_cast<std::size_t>(site);
     for (int half = 0; half < region_count(site); ++half) {
@@ -244,7 +262,8 @@ class Search {
         // where the base has not recovered yet, the point leaves its face inside the deformed base
         const bool recovering = recoveries_[index].deformation > 0.0 && recoveries_[index].face == face;
         if (recovering) subtract_recovery(recoveries_[index], conditions.g[j]);
-        conditions.zeros_at_start[j] = pins_[index].face == face && !recovering ? 1 : 0;
+        const bool pinned = pins_[index].face == face && !recovering;
+        conditions.zeros_at_start[j] = pinned || is_rounding(conditions.g[j][0]) ? 1 : 0;
       }
       const Entry entry = first_entry(conditions, order_, duration_);
       if (entry.time == kNoRoot) continue;
@@ -308,6 +327,8 @@ class Search {
   int order_;
   double duration_;
   double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
+  bool noise_known_ = false;
+  SeriesNoise noise_;
   FoundEvents found_;
 };
 

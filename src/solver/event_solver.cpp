@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "solver/held_state.h"
+#include "solver/series_noise.h"
 #include "solver/step_size.h"
 
 namespace vibratory_alignment {
@@ -13,6 +15,9 @@ namespace {
 /// Flight: order of the series in which events are sought, and their truncation error relative to the motion.
 constexpr int kFlightOrder = 18;
 constexpr double kFlightTolerance = 1e-15;
+
+/// Order of the series of motions so fast that their high powers overflow.
+constexpr int kLowOrder = 8;
 
 /// Leaps in flight, in radians of its fastest motion: shorter ones are left to the series, longer ones bound too
 /// loosely.
@@ -35,6 +40,9 @@ constexpr int kMaxEventsWithoutProgress = 100;
 /// A base deformation that is nothing (relative to lengths of order one).
 constexpr double kNoDeformation = 1e-18;
 
+/// Factor on rounding beyond which sticking contacts have to move apart.
+constexpr double kPartAllowance = 10.0;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 DriveForms forms_at(const std::vector<Drive>& drives, const Instant& t) {
@@ -56,6 +64,12 @@ bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
 }
 
+Site first_sticking(const ContactStates& contacts) {
+  std::size_t i = 0;
+  while (contacts[i].slip != Slip::stick) ++i;
+  return static_cast<Site>(i);
+}
+
 /// The last coefficients hold what any of the others is not.
 bool is_finite(const Segment& s) { return std::isfinite(s.vx[s.order] + s.vy[s.order] + s.omega[s.order]); }
 
@@ -70,6 +84,7 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
       contact_order_(series_order(tolerance_)),
       step_limit_(step_limit),
       series_(system_),
+      friction_(system_, tolerance_),
       flight_(excitations.size()) {
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
@@ -113,12 +128,24 @@ double EventSolver::tanh_layer_step() const {
   return shortest;
 }
 
+/// True when the sticking contacts hold the same motion now but would have to move apart.
+bool EventSolver::must_part() const {
+  bool left = false;
+  for (int k = 0; k < MotionSeries::kHeldPowers; ++k) left = left || series_.not_held(k) > 0.0;
+  if (!left) return false;
+  const SeriesNoise noise = series_noise(system_, segment_, segment_.duration, kPartAllowance);
+  const double most = *std::max_element(noise.slip_rate.begin(), noise.slip_rate.end());
+  double power = 1.0;
+  for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= segment_.duration)
+    if (series_.not_held(k) * power > most) return true;
+  return false;
+}
+
 void EventSolver::go_to_end() {
   const Instant end = segment_.start + segment_.duration;
   // events may coincide, but not for ever
   const bool progress = end.high != now_.high || end.low != now_.low;
   events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
-  if (progress) conflict_tries_ = 0;
   now_ = end;
   if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
   state_ = segment_.end;
@@ -155,7 +182,7 @@ const Segment& EventSolver::advance(double limit) {
   if (started_) {
     go_to_end();
   } else {
-    mode_ = start_mode(system_, state_, forms_at(drives_, now_));
+    mode_ = start_mode(system_, state_, forms_at(drives_, now_), friction_);
     started_ = true;
   }
   if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
@@ -190,10 +217,12 @@ const Segment& EventSolver::advance(double limit) {
     double step = 0.0;
     if (contact) {
       series_.expand_contact(state_, drives, contact_order_, segment_);
-      step = std::min(series_step(segment_, tolerance_), tanh_layer_step());
+      // rates so high that their powers overflow
+      if (!is_finite(segment_)) series_.expand_contact(state_, drives, kLowOrder, segment_);
+      step = std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
     } else {
       series_.expand_free(state_, drives, kFlightOrder, segment_);
-      step = series_step(segment_, kFlightTolerance);
+      step = series_step(segment_, system_.friction, kFlightTolerance);
     }
     if (!is_finite(segment_)) fail("the motion is no longer finite");
     // the series of the points turn with the part; those of the other edge and the corners follow from these
@@ -206,12 +235,11 @@ const Segment& EventSolver::advance(double limit) {
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
     segment_.duration = step;
     if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
-    if (contact && series_.conflict().count > 0) {
-      // which one gives way shows in what follows: if the choice is not consistent, the next one is tried
-      const MotionSeries::Conflict& conflict = series_.conflict();
+    if (contact && must_part()) {
+      // friction is decided anew
       found.time = 0.0;
       found.count = 1;
-      found.events[0] = conflict.candidates[static_cast<std::size_t>(conflict_tries_++ % conflict.count)];
+      found.events[0] = {EventKind::slip, first_sticking(mode_.contacts)};
     } else {
       found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
     }
@@ -241,7 +269,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
 
   segment_.event_count = 0;
   if (found.count > 0 || kink)
-    next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), found);
+    next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), friction_, found);
   else if (segment_.duration > 0.0)
     next_mode_.pins = {};
   for (int i = 0; i < found.count; ++i)
@@ -275,14 +303,7 @@ void EventSolver::forces_jump() {
   in_flight_ = false;
   if (!started_) return;
   const Instant end = segment_.start + segment_.duration;
-  decide_friction_anew(system_, segment_.end, forms_at(next_drives_, end), next_mode_);
-}
-
-std::unique_ptr<Solver> make_solver(const System& system, const std::vector<Excitation>& excitations,
-                                    const SolverSettings& settings) {
-  if (settings.name == "event")
-    return std::make_unique<EventSolver>(system, excitations, settings.tolerance, settings.step_limit);
-  throw std::invalid_argument("solver '" + settings.name + "' is not available in this build; available: event");
+  decide_friction_anew(system_, segment_, forms_at(next_drives_, end), friction_, next_mode_);
 }
 
 State state_at(const Segment& segment, double t) {

@@ -23,6 +23,7 @@ class EventSolver final : public Solver {
   bool leap(double longest);
   State flight_state(double duration) const;
   double tanh_layer_step() const;
+  bool must_part() const;
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
@@ -42,13 +43,13 @@ class EventSolver final : public Solver {
   bool started_ = false;
 
   MotionSeries series_;
+  FrictionChoice friction_;
   Segment segment_;
 
   bool in_flight_ = false;  ///< flight_ is the present one
   Flight flight_;
 
   int events_without_progress_ = 0;
-  int conflict_tries_ = 0;  ///< at this instant
   SolverCounts counts_;
 };
 

@@ -24,12 +24,17 @@ void add_drive(const DriveForm& form, int order, Series& series) {
   }
 }
 
+/// 1/k.
+constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
+  std::array<double, kMaxOrder + 4> inverse{};
+  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = 1.0 / static_cast<double>(k);
+  return inverse;
+}();
+
 int point_index(Site site) { return (is_edge(site) ? 0 : 2) + pair_index(site); }
 
-/// What is left of V' of two sticking contacts, relative, that is more than rounding.
-constexpr double kConflict = 1e-7;
-
-constexpr Site kPointSites[4] = {Site::a1, Site::a2, Site::b1, Site::b2};
+/// Rounding of V' relative to the sizes of its terms.
+constexpr double kSlipRateRounding = 1e-15;
 
 /// k(n) = c0 + c1 cos^2 phi on the faces of the part, power k.
 void turning_term(const System& system, Face face, int k, const Segment& segment, double& stiffness, double& damping) {
@@ -63,7 +68,10 @@ void MotionSeries::start(const State& start, const DriveForms& drives, int order
   segment.cos_phi[0] = std::cos(start.phi);
   segment.sin_phi[0] = std::sin(start.phi);
   known_trig_ = 0;
-  trig_term(0, segment);
+  direction_[0] = Pair(segment.cos_phi[0], segment.sin_phi[0]);
+  mirrored_[0] = Pair(segment.cos_phi[0], -segment.sin_phi[0]);
+  swapped_[0] = Pair(segment.sin_phi[0], segment.cos_phi[0]);
+  known_centre_ = -1;
   known_point_.fill(-1);
   for (Series* series : {&segment.drive_x, &segment.drive_y, &segment.drive_phi})
     std::fill(series->begin(), series->begin() + order + 1, 0.0);
@@ -78,7 +86,7 @@ void MotionSeries::start(const State& start, const DriveForms& drives, int order
 
 /// Velocity of power k + 1 and position of power k + 2 from the forces of power k.
 void MotionSeries::accelerate(int k, const Load& load, Segment& segment) const {
-  const double inverse = 1.0 / (k + 1), next_inverse = 1.0 / (k + 2);
+  const double inverse = kInverse[k + 1], next_inverse = kInverse[k + 2];
   const auto axis_term = [&](const Axis& axis, double force, Series& q, Series& v) {
     const double stretch = k == 0 ? q[0] - axis.anchor : q[k];
     v[k + 1] = axis.inverse_inertia * (force - axis.damping * v[k] - axis.stiffness * stretch) * inverse;
@@ -98,38 +106,46 @@ void MotionSeries::expand_free(const State& start, const DriveForms& drives, int
 
 void MotionSeries::trig_term(int k, Segment& segment) {
   // (c, s)' = omega (-s, c)
-  if (k > 0)
-    direction_[k] = product_term(turned_, segment.omega, k - 1) / k;
-  else
-    direction_[0] = Pair(segment.cos_phi[0], segment.sin_phi[0]);
-  turned_[k] = Pair(-direction_[k][1], direction_[k][0]);
-  segment.cos_phi[k] = direction_[k][0];
-  segment.sin_phi[k] = direction_[k][1];
+  double c = 0.0, s = 0.0;
+  if (system_.phi.moves) {
+    const Pair product = product_term(direction_, segment.omega, k - 1) * kInverse[k];
+    c = -product[1];
+    s = product[0];
+  }
+  direction_[k] = Pair(c, s);
+  mirrored_[k] = Pair(c, -s);
+  swapped_[k] = Pair(s, c);
+  segment.cos_phi[k] = c;
+  segment.sin_phi[k] = s;
 }
 
-void MotionSeries::point_term(Site site, int k, const Segment& segment) {
-  const int index = point_index(site);
-  known_point_[index] = k;
-  if (!is_edge(site)) {
-    const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-    points_[index][k] = Pair(segment.x[k], segment.y[k]) + beta * direction_[k] - b * turned_[k];
+/// (x c + y s, y c - x s), power k.
+void MotionSeries::centre_term(int k, const Segment& segment) {
+  known_centre_ = k;
+  Pair sum = segment.x[k] * mirrored_[0] + segment.y[k] * swapped_[0];
+  if (system_.phi.moves)
+    for (int j = 0; j < k; ++j) sum += segment.x[j] * mirrored_[k - j] + segment.y[j] * swapped_[k - j];
+  centre_[k] = sum;
+}
+
+void MotionSeries::point_term(int point, int k, const Segment& segment) {
+  known_point_[point] = k;
+  const Pair& d = direction_[k];
+  const double side = point % 2 == 0 ? 1.0 : -1.0;
+  if (point >= 2) {
+    const double beta = side * system_.half_width, b = system_.base_distance;
+    points_[point][k] = Pair(segment.x[k] + beta * d[0] + b * d[1], segment.y[k] + beta * d[1] - b * d[0]);
     return;
   }
-  // (u, w) = c (rx, ry) + s (ry, -rx)
-  const double edge_x = k == 0 ? side_of(site) * system_.slot_half_width : 0.0;
-  PairSeries& lever = levers_[index];
-  PairSeries& crossed = crossed_[index];
-  lever[k] = Pair(edge_x - segment.x[k], -segment.y[k]);
-  crossed[k] = Pair(lever[k][1], -lever[k][0]);
-  Pair sum = lever[0] * segment.cos_phi[k] + crossed[0] * segment.sin_phi[k];
-  for (int j = 1; j <= k; ++j) sum += lever[j] * segment.cos_phi[k - j] + crossed[j] * segment.sin_phi[k - j];
-  points_[index][k] = sum;
+  if (known_centre_ < k) centre_term(k, segment);
+  const double l = side * system_.slot_half_width;
+  points_[point][k] = l * mirrored_[k] - centre_[k];
 }
 
 const PairSeries& MotionSeries::point(Site site, Segment& segment) {
   direction(segment);
   const int index = point_index(site);
-  while (known_point_[index] < order_) point_term(kPointSites[index], known_point_[index] + 1, segment);
+  while (known_point_[index] < order_) point_term(index, known_point_[index] + 1, segment);
   return points_[index];
 }
 
@@ -141,7 +157,7 @@ const PairSeries& MotionSeries::direction(Segment& segment) {
 void MotionSeries::set_up_contacts(Segment& segment) {
   segment.loaded_count = 0;
   sticking_count_ = 0;
-  conflict_ = {};
+  not_held_.fill(0.0);
   for (int i = 0; i < kSiteCount; ++i) {
     const ContactState& state = segment.contacts[i];
     if (state.phase != Phase::loaded) continue;
@@ -154,6 +170,9 @@ void MotionSeries::set_up_contacts(Segment& segment) {
     contact.frame = contact_frame(system_, state.face);
     contact.separate_t = state.slip == Slip::stick || state.slip == Slip::regularized;
     contact.ratio = state.slip == Slip::plus ? -system_.friction : state.slip == Slip::minus ? system_.friction : 0.0;
+    contact.point = point_index(contact.site);
+    contact.force1 = contact.frame.n1 + contact.ratio * contact.frame.t1();
+    contact.force2 = contact.frame.n2 + contact.ratio * contact.frame.t2();
     contact.turning = is_edge(contact.site) && !system_.isotropic;
     contact.stiffness = stiffness_of(system_, state.face, segment.cos_phi[0], segment.sin_phi[0]);
     contact.damping = damping_of(system_, state.face, segment.cos_phi[0], segment.sin_phi[0]);
@@ -176,148 +195,330 @@ void MotionSeries::push_series(const Segment& segment, Face face, const Series& 
 }
 
 /// Directions in which a contact's forces act, power k: sliding contacts take N and T together.
-void MotionSeries::direction_terms(Contact& contact, int k, const Segment& segment) const {
+void MotionSeries::direction_terms(Contact& contact, int k) const {
   const ContactFrame& f = contact.frame;
-  const Pair& p = points_[point_index(contact.site)][k];
-  const double a = f.n1 + contact.ratio * f.t1(), b = f.n2 + contact.ratio * f.t2();
-  Directions& d = contact.d;
+  const Pair& d = direction_[k];
   if (is_edge(contact.site)) {
     // body components (a, b): world a (c, s) + b (-s, c), moment b u - a w
-    d.n[k] = a * direction_[k] + b * turned_[k];
-    d.nm[k] = b * p[0] - a * p[1];
+    const Pair& p = points_[contact.point][k];
+    const auto force = [&](double a, double b) { return Pair(a * d[0] - b * d[1], a * d[1] + b * d[0]); };
+    contact.push[k] = force(contact.force1, contact.force2);
+    contact.push_moment[k] = contact.force2 * p[0] - contact.force1 * p[1];
     if (!contact.separate_t) return;
-    d.t[k] = f.t1() * direction_[k] + f.t2() * turned_[k];
-    d.tm[k] = f.t2() * p[0] - f.t1() * p[1];
+    contact.drag[k] = force(f.t1(), f.t2());
+    contact.drag_moment[k] = f.t2() * p[0] - f.t1() * p[1];
   } else {
     // world components (a, b), moment b r_x - a r_y
-    const double rx = p[0] - segment.x[k], ry = p[1] - segment.y[k], one = k == 0 ? 1.0 : 0.0;
-    d.n[k] = Pair(a * one, b * one);
-    d.nm[k] = b * rx - a * ry;
+    const double beta = side_of(contact.site) * system_.half_width, b0 = system_.base_distance;
+    const double rx = beta * d[0] + b0 * d[1], ry = beta * d[1] - b0 * d[0], one = k == 0 ? 1.0 : 0.0;
+    contact.push[k] = Pair(contact.force1 * one, contact.force2 * one);
+    contact.push_moment[k] = contact.force2 * rx - contact.force1 * ry;
     if (!contact.separate_t) return;
-    d.t[k] = Pair(f.t1() * one, f.t2() * one);
-    d.tm[k] = f.t2() * rx - f.t1() * ry;
+    contact.drag[k] = Pair(f.t1() * one, f.t2() * one);
+    contact.drag_moment[k] = f.t2() * rx - f.t1() * ry;
   }
 }
 
-/// Depth, N, V and T of power k; positions are known to power k + 1. T of sticking contacts is left at zero.
-void MotionSeries::force_terms(int k, Segment& segment) {
-  for (int i = 0; i < segment.loaded_count; ++i) {
-    Contact& contact = contacts_[i];
-    ContactSeries& series = segment.loaded[i];
-    const ContactFrame& f = contact.frame;
-    const PairSeries& point = points_[point_index(contact.site)];
-    if (k == 0) series.depth[0] = f.depth(point[0][0], point[0][1]);
-    series.depth[k + 1] = f.sign * (f.n1 * point[k + 1][0] + f.n2 * point[k + 1][1]);
-    const double depth_rate = (k + 1) * series.depth[k + 1];
-    series.slip_velocity[k] = -f.sign * (k + 1) * (f.t1() * point[k + 1][0] + f.t2() * point[k + 1][1]);
-    if (contact.turning) {
-      turning_term(system_, contact.face, k, segment, contact.k[k], contact.h[k]);
-      series.normal_force[k] = turning_push(contact.k, contact.h, series.depth, k);
-    } else {
-      series.normal_force[k] = contact.stiffness * series.depth[k] + contact.damping * depth_rate;
-    }
-    series.tangential_force[k] = contact.ratio * series.normal_force[k];
-    if (contact.slip == Slip::regularized) {
-      // z = tanh(V/eps): z' = (1 - z^2) V'/eps
-      const double eps = system_.regularization;
-      if (k == 0) {
-        contact.tanh[0] = std::tanh(series.slip_velocity[0] / eps);
-      } else {
-        double z = 0.0;
-        for (int j = 0; j < k; ++j) z += (j + 1) * series.slip_velocity[j + 1] * contact.sech2[k - 1 - j];
-        contact.tanh[k] = z / (k * eps);
-      }
-      contact.sech2[k] = (k == 0 ? 1.0 : 0.0) - product_term(contact.tanh, contact.tanh, k);
-      series.tangential_force[k] = -system_.friction * product_term(series.normal_force, contact.tanh, k);
-    }
-    direction_terms(contact, k, segment);
+/// T = -f N z of power k, z = tanh(V/eps): z' = (1 - z^2) V'/eps.
+void MotionSeries::tanh_term(Contact& contact, int k, ContactSeries& series) const {
+  const double eps = system_.regularization;
+  if (k == 0) {
+    contact.tanh[0] = std::tanh(series.slip_velocity[0] / eps);
+  } else {
+    double z = 0.0;
+    for (int j = 0; j < k; ++j) z += (j + 1) * series.slip_velocity[j + 1] * contact.sech2[k - 1 - j];
+    contact.tanh[k] = z / (k * eps);
   }
+  contact.sech2[k] = (k == 0 ? 1.0 : 0.0) - product_term(contact.tanh, contact.tanh, k);
+  series.tangential_force[k] = -system_.friction * product_term(series.normal_force, contact.tanh, k);
+}
+
+/// Depth (power k + 1), N, V and T (power k) of a contact whose point is known to power k + 1. T of what sticks stays
+/// 0.
+void MotionSeries::force_term(Contact& contact, int k, ContactSeries& series, const Segment& segment) {
+  const ContactFrame& f = contact.frame;
+  const Pair& p = points_[contact.point][k + 1];
+  const double depth = f.sign * (f.n1 * p[0] + f.n2 * p[1]);
+  const double depth_rate = (k + 1) * depth;
+  series.depth[k + 1] = depth;
+  series.slip_velocity[k] = -f.sign * (k + 1) * (f.t1() * p[0] + f.t2() * p[1]);
+  if (contact.turning) {
+    turning_term(system_, contact.face, k, segment, contact.k[k], contact.h[k]);
+    series.normal_force[k] = turning_push(contact.k, contact.h, series.depth, k);
+  } else {
+    series.normal_force[k] = contact.stiffness * series.depth[k] + contact.damping * depth_rate;
+  }
+  series.tangential_force[k] = contact.ratio * series.normal_force[k];
+  if (contact.slip == Slip::regularized) tanh_term(contact, k, series);
+  direction_terms(contact, k);
+}
+
+void MotionSeries::set_up_mobility() {
+  Mobility::Matrix matrix{};
+  for (int m = 0; m < sticking_count_; ++m)
+    for (int n = 0; n < sticking_count_; ++n) {
+      const Contact& a = contacts_[sticking_[m]];
+      const Contact& b = contacts_[sticking_[n]];
+      matrix[m][n] = system_.x.inverse_inertia * a.drag[0][0] * b.drag[0][0] +
+                     system_.y.inverse_inertia * a.drag[0][1] * b.drag[0][1] +
+                     system_.phi.inverse_inertia * a.drag_moment[0] * b.drag_moment[0];
+    }
+  mobility_.set(matrix, sticking_count_, typical_mobility(system_));
+}
+
+double MotionSeries::slip_rate_size(const Segment& segment) const {
+  const auto force = [](const Axis& axis, const Series& drive, const Series& q, const Series& v) {
+    return std::abs(drive[0]) + axis.damping * std::abs(v[0]) + axis.stiffness * std::abs(q[0] - axis.anchor);
+  };
+  const double reach = system_.half_width + system_.base_distance;
+  double forces = system_.weight;
+  for (int i = 0; i < segment.loaded_count; ++i)
+    forces += std::abs(segment.loaded[i].normal_force[0]) + std::abs(segment.loaded[i].tangential_force[0]);
+  const double turn = std::abs(segment.omega[0]),
+               speed = std::abs(segment.vx[0]) + std::abs(segment.vy[0]) + reach * turn;
+  return system_.x.inverse_inertia * (force(system_.x, segment.drive_x, segment.x, segment.vx) + forces) +
+         system_.y.inverse_inertia * (force(system_.y, segment.drive_y, segment.y, segment.vy) + forces) +
+         reach * system_.phi.inverse_inertia *
+             (force(system_.phi, segment.drive_phi, segment.phi, segment.omega) + reach * forces) +
+         turn * speed;
+}
+
+/// Sum of the absolute values of what V' of power k is made of: what its rounding is measured by.
+double MotionSeries::slip_rate_size(const Contact& contact, int k, const Segment& segment) const {
+  const auto axis_size = [&](const Axis& axis, const Series& drive, const Series& q, const Series& v) {
+    return std::abs(drive[k]) + axis.damping * std::abs(v[k]) + axis.stiffness * std::abs(q[k]);
+  };
+  double x =
+      axis_size(system_.x, segment.drive_x, segment.x, segment.vx) + system_.x.stiffness * std::abs(system_.x.anchor);
+  double y = axis_size(system_.y, segment.drive_y, segment.y, segment.vy) + std::abs(system_.y.anchor) + system_.weight;
+  double moment = axis_size(system_.phi, segment.drive_phi, segment.phi, segment.omega);
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const Contact& other = contacts_[i];
+    const ContactSeries& series = segment.loaded[i];
+    for (int j = 0; j <= k; ++j) {
+      const double n = std::abs(series.normal_force[k - j]);
+      x += std::abs(other.push[j][0]) * n;
+      y += std::abs(other.push[j][1]) * n;
+      moment += std::abs(other.push_moment[j]) * n;
+      if (!other.separate_t) continue;
+      const double t = std::abs(series.tangential_force[k - j]);
+      x += std::abs(other.drag[j][0]) * t;
+      y += std::abs(other.drag[j][1]) * t;
+      moment += std::abs(other.drag_moment[j]) * t;
+    }
+  }
+  // V' along t, and what turning adds to it
+  const double size = std::abs(contact.drag[0][0]) * system_.x.inverse_inertia * x +
+                      std::abs(contact.drag[0][1]) * system_.y.inverse_inertia * y +
+                      std::abs(contact.drag_moment[0]) * system_.phi.inverse_inertia * moment;
+  double turning = 0.0;
+  for (int j = 0; j <= k + 1; ++j) {
+    const double reach =
+        j == 0 ? system_.half_width + system_.base_distance : std::abs(segment.x[j]) + std::abs(segment.y[j]);
+    turning += reach * direction_[k + 2 - j].abs().sum();
+  }
+  return size + (k + 2) * (k + 1) * turning;
 }
 
 /// Tangential forces of power k that keep V = 0: T = 0 first, then G T = -V' corrects the acceleration.
 void MotionSeries::hold_sticking(int k, Segment& segment) {
-  if (k == 0) {
-    for (int m = 0; m < sticking_count_; ++m)
-      for (int n = 0; n < sticking_count_; ++n) {
-        const Directions& a = contacts_[sticking_[m]].d;
-        const Directions& b = contacts_[sticking_[n]].d;
-        mobility_[m][n] = system_.x.inverse_inertia * a.t[0][0] * b.t[0][0] +
-                          system_.y.inverse_inertia * a.t[0][1] * b.t[0][1] +
-                          system_.phi.inverse_inertia * a.tm[0] * b.tm[0];
-      }
-  }
+  if (k == 0) set_up_mobility();
   // V' of power k without the forces sought
   trig_term(k + 2, segment);
-  std::array<double, kSiteCount> rhs{}, force{};
+  Mobility::Vector rhs{}, noise{};
   for (int m = 0; m < sticking_count_; ++m) {
     const Contact& contact = contacts_[sticking_[m]];
-    point_term(contact.site, k + 2, segment);
-    const PairSeries& point = points_[point_index(contact.site)];
+    point_term(contact.point, k + 2, segment);
+    const PairSeries& point = points_[contact.point];
     const ContactFrame& f = contact.frame;
     rhs[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point[k + 2][0] + f.t2() * point[k + 2][1]);
+    if (!mobility_.regular()) noise[m] = kSlipRateRounding * slip_rate_size(contact, k, segment);
   }
-  solve_mobility(mobility_, sticking_count_, rhs, force);
-  if (sticking_count_ > 1 && conflict_.count == 0) find_conflict(rhs, force, k);
+  const Mobility::Vector held = mobility_.hold(rhs, noise);
   for (int m = 0; m < sticking_count_; ++m) {
-    const Directions& d = contacts_[sticking_[m]].d;
-    segment.loaded[sticking_[m]].tangential_force[k] = force[m];
-    segment.vx[k + 1] += system_.x.inverse_inertia * d.t[0][0] * force[m] / (k + 1);
-    segment.vy[k + 1] += system_.y.inverse_inertia * d.t[0][1] * force[m] / (k + 1);
-    segment.omega[k + 1] += system_.phi.inverse_inertia * d.tm[0] * force[m] / (k + 1);
+    const Contact& contact = contacts_[sticking_[m]];
+    const Pair& d = contact.drag[0];
+    const double force = held[m];
+    segment.loaded[sticking_[m]].tangential_force[k] = force;
+    segment.vx[k + 1] += system_.x.inverse_inertia * d[0] * force / (k + 1);
+    segment.vy[k + 1] += system_.y.inverse_inertia * d[1] * force / (k + 1);
+    segment.omega[k + 1] += system_.phi.inverse_inertia * contact.drag_moment[0] * force / (k + 1);
+    if (k < kHeldPowers && !mobility_.regular()) {
+      const double left = std::abs(mobility_.left_over(m, rhs, held));
+      if (left > noise[m]) not_held_[k] = std::max(not_held_[k], left);
+    }
   }
   segment.x[k + 2] = segment.vx[k + 1] / (k + 2);
   segment.y[k + 2] = segment.vy[k + 1] / (k + 2);
   segment.phi[k + 2] = segment.omega[k + 1] / (k + 2);
+  known_centre_ = std::min(known_centre_, k + 1);  // that of k + 2 was without these forces
+}
+
+std::array<double, kSiteCount> MotionSeries::holding_force_noise(
+    const std::array<double, kSiteCount>& slip_rate_noise) const {
+  Mobility::Vector rate{};
+  for (int m = 0; m < sticking_count_; ++m) rate[m] = slip_rate_noise[sticking_[m]];
+  const Mobility::Vector spread = mobility_.spread(rate);
+  std::array<double, kSiteCount> noise{};
+  for (int m = 0; m < sticking_count_; ++m) noise[sticking_[m]] = spread[m];
+  return noise;
 }
 
 MotionSeries::Load MotionSeries::contact_load(int k, const Segment& segment) const {
   Load load;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const Contact& contact = contacts_[i];
-    const Directions& d = contact.d;
-    const Series& n = segment.loaded[i].normal_force;
-    for (int j = 0; j <= k; ++j) {
-      load.force += d.n[j] * n[k - j];
-      load.moment += d.nm[j] * n[k - j];
-    }
+    const ContactSeries& series = segment.loaded[i];
+    load.force += product_term(contact.push, series.normal_force, k);
+    load.moment += product_term(contact.push_moment, series.normal_force, k);
+    // what holds a sticking contact is zero in this power as yet
     if (!contact.separate_t) continue;
-    // what holds a sticking contact is not known yet in this power
-    const Series& t = segment.loaded[i].tangential_force;
-    const int first = contact.slip == Slip::stick ? 1 : 0;
-    for (int j = first; j <= k; ++j) {
-      load.force += d.t[j] * t[k - j];
-      load.moment += d.tm[j] * t[k - j];
-    }
+    load.force += product_term(contact.drag, series.tangential_force, k);
+    load.moment += product_term(contact.drag_moment, series.tangential_force, k);
   }
   return load;
 }
 
-/// Where G is singular the contacts hold one motion for this instant; if they part in a later power, V' of power k is
-/// left over: one of them gives way, in the direction that is left over for it.
-void MotionSeries::find_conflict(const std::array<double, kSiteCount>& rhs, const std::array<double, kSiteCount>& force,
-                                 int k) {
-  for (int m = 0; m < sticking_count_; ++m) {
-    double left = -rhs[m], scale = std::abs(rhs[m]) + 1e-300;
-    for (int n = 0; n < sticking_count_; ++n) {
-      left += mobility_[m][n] * force[n];
-      scale += std::abs(mobility_[m][n] * force[n]);
+/// The whole expansion for one contact that slides (or whose friction is regularised) on a base whose stiffness does
+/// not turn: the same recurrences, in one loop.
+template <bool kEdge, bool kTurns, bool kTanh>
+void MotionSeries::expand_single(Segment& segment) {
+  const Contact& contact = contacts_[0];
+  ContactSeries& series = segment.loaded[0];
+  PairSeries& point = points_[contact.point];
+  const int order = segment.order;
+  const ContactFrame& f = contact.frame;
+  const double side = side_of(contact.site), l = side * system_.slot_half_width, beta = side * system_.half_width,
+               b0 = system_.base_distance;
+  const Pair depth_row(f.sign * f.n1, f.sign * f.n2), slip_row(-f.sign * f.t1(), -f.sign * f.t2());
+  const Pair force_row(contact.force1, contact.force2), moment_row(contact.force2, -contact.force1),
+      crossed_row(-contact.force2, contact.force1);
+  const Pair drag_row(f.t1(), f.t2()), drag_moment_row(f.t2(), -f.t1()), drag_crossed_row(-f.t2(), f.t1());
+  const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
+               fast_phi = system_.phi.inverse_inertia, eps = system_.regularization;
+  PairSeries push, drag;
+  Series push_moment, drag_moment, tanh, sech2;
+  for (int k = -1; k < order + 1; ++k) {
+    // direction, point and depth of power k + 1
+    if (k >= 0) {
+      Pair turn(0.0, 0.0);
+      if (kTurns) turn = product_term(direction_, segment.omega, k) * kInverse[k + 1];
+      direction_[k + 1] = Pair(-turn[1], turn[0]);
+      mirrored_[k + 1] = Pair(-turn[1], -turn[0]);
+      swapped_[k + 1] = Pair(turn[0], -turn[1]);
+      segment.cos_phi[k + 1] = -turn[1];
+      segment.sin_phi[k + 1] = turn[0];
     }
-    if (std::abs(left) <= kConflict * scale) continue;
-    conflict_.candidates[conflict_.count++] = {EventKind::part, contacts_[sticking_[m]].site, Face::none,
-                                               left > 0.0 ? 1 : -1, k + 1};
+    const int n = k + 1;
+    const Pair& d = direction_[n];
+    if (kEdge) {
+      Pair along = segment.x[n] * mirrored_[0], across = segment.y[n] * swapped_[0];
+      if (kTurns)
+        for (int j = 0; j < n; ++j) {
+          along += segment.x[j] * mirrored_[n - j];
+          across += segment.y[j] * swapped_[n - j];
+        }
+      centre_[n] = along + across;
+      point[n] = l * mirrored_[n] - centre_[n];
+    } else {
+      point[n] = Pair(segment.x[n] + beta * d[0] + b0 * d[1], segment.y[n] + beta * d[1] - b0 * d[0]);
+    }
+    series.depth[n] = (depth_row * point[n]).sum();
+    if (k < 0) {
+      series.depth[0] += f.offset;
+      continue;
+    }
+    // forces of power k
+    const double normal = contact.stiffness * series.depth[k] + contact.damping * n * series.depth[n];
+    series.normal_force[k] = normal;
+    series.slip_velocity[k] = n * (slip_row * point[n]).sum();
+    const Pair lever =
+        kEdge ? point[k]
+              : Pair(beta * direction_[k][0] + b0 * direction_[k][1], beta * direction_[k][1] - b0 * direction_[k][0]);
+    push_moment[k] = (moment_row * lever).sum();
+    if (kEdge) push[k] = force_row[0] * direction_[k] + force_row[1] * Pair(-direction_[k][1], direction_[k][0]);
+    Pair force;
+    double moment = 0.0;
+    if (kEdge && kTurns)
+      force = product_term(push, series.normal_force, k);
+    else
+      force = normal * (kEdge ? push[0] : force_row);
+    if (kTurns) moment = product_term(push_moment, series.normal_force, k);
+    if (kTanh) {
+      if (k == 0) {
+        tanh[0] = std::tanh(series.slip_velocity[0] / eps);
+      } else {
+        double z = 0.0;
+        for (int j = 0; j < k; ++j) z += (j + 1) * series.slip_velocity[j + 1] * sech2[k - 1 - j];
+        tanh[k] = z * kInverse[k] / eps;
+      }
+      sech2[k] = (k == 0 ? 1.0 : 0.0) - product_term(tanh, tanh, k);
+      series.tangential_force[k] = -system_.friction * product_term(series.normal_force, tanh, k);
+      drag_moment[k] = (drag_moment_row * lever).sum();
+      if (kEdge) drag[k] = drag_row[0] * direction_[k] + drag_row[1] * Pair(-direction_[k][1], direction_[k][0]);
+      if (kEdge && kTurns)
+        force += product_term(drag, series.tangential_force, k);
+      else
+        force += series.tangential_force[k] * (kEdge ? drag[0] : drag_row);
+      if (kTurns) moment += product_term(drag_moment, series.tangential_force, k);
+    } else {
+      series.tangential_force[k] = contact.ratio * normal;
+    }
+    if (k == order) break;
+    // velocity of power k + 1, position of power k + 2
+    const double dx = k == 0 ? segment.x[0] - system_.x.anchor : segment.x[k];
+    const double dy = k == 0 ? segment.y[0] - system_.y.anchor : segment.y[k];
+    const double weight = k == 0 ? system_.weight : 0.0;
+    const double inverse = kInverse[n], next_inverse = kInverse[n + 1];
+    segment.vx[n] = fast_x * inverse *
+                    (segment.drive_x[k] + force[0] - system_.x.damping * segment.vx[k] - system_.x.stiffness * dx);
+    segment.vy[n] =
+        fast_y * inverse *
+        (segment.drive_y[k] + force[1] - weight - system_.y.damping * segment.vy[k] - system_.y.stiffness * dy);
+    segment.x[n + 1] = segment.vx[n] * next_inverse;
+    segment.y[n + 1] = segment.vy[n] * next_inverse;
+    if (kTurns) {
+      const double dphi = k == 0 ? segment.phi[0] - system_.phi.anchor : segment.phi[k];
+      segment.omega[n] =
+          fast_phi * inverse *
+          (segment.drive_phi[k] + moment - system_.phi.damping * segment.omega[k] - system_.phi.stiffness * dphi);
+      segment.phi[n + 1] = segment.omega[n] * next_inverse;
+    } else {
+      segment.omega[n] = segment.phi[n + 1] = 0.0;
+    }
   }
+  known_trig_ = order + 1;
+  known_point_[contact.point] = order + 1;
+  if (kEdge) known_centre_ = order + 1;
 }
 
 void MotionSeries::expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment) {
   this->start(start, drives, order, segment);
   set_up_contacts(segment);
-  for (int i = 0; i < segment.loaded_count; ++i) point_term(contacts_[i].site, 0, segment);
+  if (segment.loaded_count == 1 && sticking_count_ == 0 && !contacts_[0].turning) {
+    const bool edge = is_edge(contacts_[0].site), turns = system_.phi.moves, tanh = contacts_[0].separate_t;
+    if (edge)
+      turns ? (tanh ? expand_single<true, true, true>(segment) : expand_single<true, true, false>(segment))
+            : (tanh ? expand_single<true, false, true>(segment) : expand_single<true, false, false>(segment));
+    else
+      turns ? (tanh ? expand_single<false, true, true>(segment) : expand_single<false, true, false>(segment))
+            : (tanh ? expand_single<false, false, true>(segment) : expand_single<false, false, false>(segment));
+    return;
+  }
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const Contact& contact = contacts_[i];
+    point_term(contact.point, 0, segment);
+    const Pair& p = points_[contact.point][0];
+    segment.loaded[i].depth[0] = contact.frame.depth(p[0], p[1]);
+  }
   for (int k = 0;; ++k) {
     // positions are known to power k + 1: so are the points, and the forces to power k
-    trig_term(k + 1, segment);
+    if (k + 1 > known_trig_) trig_term(k + 1, segment);
     known_trig_ = k + 1;
-    for (int i = 0; i < segment.loaded_count; ++i) point_term(contacts_[i].site, k + 1, segment);
-    force_terms(k, segment);
+    for (int i = 0; i < segment.loaded_count; ++i) {
+      point_term(contacts_[i].point, k + 1, segment);
+      force_term(contacts_[i], k, segment.loaded[i], segment);
+    }
     if (k == order) break;
     accelerate(k, contact_load(k, segment), segment);
     if (sticking_count_ > 0) hold_sticking(k, segment);

@@ -5,7 +5,7 @@
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/drive.h"
-#include "mechanics/friction.h"
+#include "mechanics/mobility.h"
 #include "solver/segment.h"
 
 namespace vibratory_alignment {
@@ -28,13 +28,18 @@ class MotionSeries {
   /// Fills the segment with its loaded contacts (segment.contacts) from `start`. Sticking contacts have V = 0 exactly.
   void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
 
-  /// Contacts that stick now but cannot go on doing so together: one of `candidates` has to slide from the segment's
-  /// start, in its direction. Empty when there is no such conflict.
-  struct Conflict {
-    int count = 0;
-    std::array<Event, kSiteCount> candidates{};
-  };
-  const Conflict& conflict() const { return conflict_; }
+  /// Power up to which it is watched whether sticking contacts can hold together.
+  static constexpr int kHeldPowers = 6;
+
+  /// What no tangential forces can take out of V' of the sticking contacts, power k < kHeldPowers: contacts that hold
+  /// the same motion now and have to move apart. Largest among them; 0 but for rounding where they hold.
+  double not_held(int k) const { return not_held_[static_cast<std::size_t>(k)]; }
+
+  /// Accelerations that V' is made of at the segment's start: sum of their absolute values over all axes and forces.
+  double slip_rate_size(const Segment& segment) const;
+
+  /// Errors of T of the sticking contacts that errors of V' cause, both per entry of segment.loaded.
+  std::array<double, kSiteCount> holding_force_noise(const std::array<double, kSiteCount>& slip_rate_noise) const;
 
   /// Coordinates of a site's point (body coordinates of an edge, position of a corner), made on the first call.
   const PairSeries& point(Site site, Segment& segment);
@@ -47,22 +52,21 @@ class MotionSeries {
   void push_series(const Segment& segment, Face face, const Series& depth, Series& push) const;
 
  private:
-  struct Directions {  ///< force (x, y) and moment per unit of N (sliding friction included) and per unit of T
-    PairSeries n, t;
-    Series nm{}, tm{};
-  };
   struct Contact {
     Site site = Site::a1;
     Face face = Face::none;
     Slip slip = Slip::none;
+    int point = 0;  ///< index of its point
     ContactFrame frame;
-    double ratio = 0.0;       ///< T = ratio N for sliding contacts
-    bool separate_t = false;  ///< T is a series of its own (stick, regularised)
-    bool turning = false;     ///< k(n), h(n) change with the tilt
+    double ratio = 0.0;                 ///< T = ratio N for sliding contacts
+    double force1 = 0.0, force2 = 0.0;  ///< force per unit of N, sliding friction included, in the axes of the frame
+    bool separate_t = false;            ///< T is a series of its own (stick, regularised)
+    bool turning = false;               ///< k(n), h(n) change with the tilt
     double stiffness = 0.0, damping = 0.0;
-    Directions d;
-    Series k{}, h{};         ///< of turning contacts
-    Series tanh{}, sech2{};  ///< regularised: tanh(V/eps) and 1 - tanh^2
+    PairSeries push, drag;                ///< force per unit of N (with sliding friction), and of T
+    Series push_moment{}, drag_moment{};  ///< moment likewise
+    Series k{}, h{};                      ///< of turning contacts
+    Series tanh{}, sech2{};               ///< regularised: tanh(V/eps) and 1 - tanh^2
   };
 
   struct Load {  ///< forces and moment of all contacts, one power
@@ -73,26 +77,33 @@ class MotionSeries {
   void start(const State& start, const DriveForms& drives, int order, Segment& segment);
   void set_up_contacts(Segment& segment);
   void trig_term(int k, Segment& segment);
-  void point_term(Site site, int k, const Segment& segment);
-  void force_terms(int k, Segment& segment);
+  void centre_term(int k, const Segment& segment);
+  void point_term(int point, int k, const Segment& segment);
+  void force_term(Contact& contact, int k, ContactSeries& series, const Segment& segment);
+  void tanh_term(Contact& contact, int k, ContactSeries& series) const;
   void hold_sticking(int k, Segment& segment);
-  void find_conflict(const std::array<double, kSiteCount>& rhs, const std::array<double, kSiteCount>& force, int k);
-  void direction_terms(Contact& contact, int k, const Segment& segment) const;
+  void set_up_mobility();
+  double slip_rate_size(const Contact& contact, int k, const Segment& segment) const;
+  void direction_terms(Contact& contact, int k) const;
   Load contact_load(int k, const Segment& segment) const;
   void accelerate(int k, const Load& load, Segment& segment) const;
+  template <bool kEdge, bool kTurns, bool kTanh>
+  void expand_single(Segment& segment);
 
   const System& system_;
   int order_ = 0;
   int known_trig_ = 0;  ///< highest known power of cos and sin
   std::array<Contact, kSiteCount> contacts_;
-  PairSeries direction_, turned_;               ///< (cos phi, sin phi) and (-sin phi, cos phi)
-  std::array<PairSeries, 4> points_;            ///< a1, a2, b1, b2 (floor sites share their corner)
-  std::array<PairSeries, 2> levers_, crossed_;  ///< edges: A - C = (r_x, r_y) and (r_y, -r_x), world axes
-  std::array<int, 4> known_point_{};            ///< highest known power, -1: none
-  Conflict conflict_;
+  PairSeries direction_;              ///< (cos phi, sin phi)
+  PairSeries mirrored_, swapped_;     ///< (cos phi, -sin phi), (sin phi, cos phi)
+  PairSeries centre_;                 ///< C in body axes: (x cos phi + y sin phi, y cos phi - x sin phi)
+  int known_centre_ = -1;             ///< highest known power
+  std::array<PairSeries, 4> points_;  ///< a1, a2, b1, b2 (floor sites share their corner)
+  std::array<int, 4> known_point_{};  ///< highest known power, -1: none
   int sticking_count_ = 0;
   std::array<int, kSiteCount> sticking_{};  ///< indices into segment.loaded
-  std::array<std::array<double, kSiteCount>, kSiteCount> mobility_{};
+  Mobility mobility_;                       ///< of the sticking contacts, at the segment's start
+  std::array<double, kHeldPowers> not_held_{};
 };
 
 }  // namespace vibratory_alignment

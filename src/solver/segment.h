@@ -20,7 +20,6 @@ enum class EventKind {
   slip_reversal,  ///< V = 0, slips on in the other direction
   stick,          ///< V = 0 and friction holds
   slip,           ///< friction no longer holds
-  part,           ///< two contacts that stick would have to move apart: one of them slips
   enter,          ///< a point enters the other body through a face without contact
   leave,          ///< ... and leaves it
   drive_kink,     ///< jump or kink of an excitation
@@ -32,8 +31,6 @@ struct Event {
   EventKind kind = EventKind::touch;
   Site site = Site::a1;
   Face face = Face::none;  ///< touched or entered (touch, enter), or through which a point leaves (run_off, leave)
-  int direction = 0;       ///< slip, part: sign of V with which sliding begins
-  int zeros = 2;           ///< slip, part: multiplicity of the zero of V from which it begins
 };
 
 constexpr int kMaxEvents = 16;

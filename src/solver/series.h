@@ -15,11 +15,17 @@ using Series = std::array<double, kMaxOrder + 3>;
 using Pair = Eigen::Array2d;
 using PairSeries = std::array<Pair, kMaxOrder + 3>;
 
-/// Coefficient k of the product of a pair of series with a series.
+/// Coefficient k of the product of a pair of series with a series. Two sums, so that additions do not wait for one
+/// another.
 inline Pair product_term(const PairSeries& a, const Series& b, int k) {
-  Pair sum = a[0] * b[k];
-  for (int j = 1; j <= k; ++j) sum += a[j] * b[k - j];
-  return sum;
+  Pair even = a[0] * b[k], odd(0.0, 0.0);
+  int j = 1;
+  for (; j < k; j += 2) {
+    odd += a[j] * b[k - j];
+    even += a[j + 1] * b[k - j - 1];
+  }
+  if (j == k) odd += a[k] * b[0];
+  return even + odd;
 }
 
 /// Coefficient k of the product of two series.

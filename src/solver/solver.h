@@ -1,7 +1,6 @@
 // The one interface of all solvers: the motion as a sequence of segments.
 #pragma once
 
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -45,9 +44,5 @@ class Solver {
 
   virtual const SolverCounts& counts() const = 0;
 };
-
-/// Makes the solver that `settings` names. Throws std::invalid_argument for a name that it does not know.
-std::unique_ptr<Solver> make_solver(const System& system, const std::vector<Excitation>& excitations,
-                                    const SolverSettings& settings);
 
 }  // namespace vibratory_alignment

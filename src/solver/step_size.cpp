@@ -31,7 +31,7 @@ double log2_step(const Series& v, int k, double log2_tolerance) {
 
 }  // namespace
 
-double series_step(const Segment& segment, double tolerance) {
+double series_step(const Segment& segment, double friction, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
   double shortest = kInfinity;
   for (const Series* v : {&segment.vx, &segment.vy, &segment.omega}) {
@@ -39,6 +39,16 @@ double series_step(const Segment& segment, double tolerance) {
     // an axis whose leading terms vanish has no scale of its own
     if ((*v)[0] == 0.0 && (*v)[1] == 0.0 && (*v)[2] == 0.0 && (*v)[3] == 0.0) continue;
     shortest = std::min({shortest, log2_step(*v, order, log2_tolerance), log2_step(*v, order - 1, log2_tolerance)});
+  }
+  // a contact that holds the part at rest: all that changes is T
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[i];
+    if (segment.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::stick) continue;
+    Series scale = contact.tangential_force;
+    for (int k = 0; k < kLeadingTerms; ++k)
+      scale[k] = std::abs(scale[k]) + friction * std::abs(contact.normal_force[k]);
+    for (int k = segment.order - 2; k < segment.order; ++k)
+      shortest = std::min(shortest, log2_step(scale, k, log2_tolerance));
   }
   return std::exp2(shortest);
 }

@@ -7,8 +7,9 @@ namespace vibratory_alignment {
 
 /// Longest time over which the last two terms of every velocity's series stay below `tolerance` times that velocity's
 /// largest leading term: the truncation error relative to each axis' own motion, whatever its scale.
-/// Infinity for an axis at rest.
-double series_step(const Segment& segment, double tolerance);
+/// Likewise for T of sticking contacts, relative to T and to the force f N that it may reach.
+/// Infinity for what is at rest.
+double series_step(const Segment& segment, double friction, double tolerance);
 
 /// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
 double pair_step(const PairSeries& series, int order, double tolerance);

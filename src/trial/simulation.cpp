@@ -5,9 +5,9 @@
 
 #include "mechanics/statics.h"
 #include "mechanics/system.h"
-#include "solver/solver.h"
 #include "trial/contact_watch.h"
 #include "trial/energy.h"
+#include "trial/make_solver.h"
 #include "trial/settling.h"
 
 namespace vibratory_alignment {

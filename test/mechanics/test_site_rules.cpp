@@ -1,5 +1,5 @@
-// Where a point may touch: inside at the start it touches the nearest face, contacts end where their face ends, and only
-// what the scene calls for is touched at all (MODEL.md "Contact", "Settled readings").
+// Where a point may touch: inside at the start it touches the nearest face, contacts end where their face ends, and
+// only what the scene calls for is touched at all (MODEL.md "Contact", "Settled readings").
 #include "mechanics/site_rules.h"
 
 #include <gtest/gtest.h>
@@ -94,14 +94,27 @@ TEST(SiteRules, faces_that_are_not_called_for_are_not_touched) {
   EXPECT_TRUE(is_called_for(s, Face::top));
 }
 
-TEST(SiteRules, the_floor_is_touched_only_in_the_slot) {
+// Beside the slot there is no floor, unless the corner got there through the wall that it presses.
+TEST(SiteRules, the_floor_is_touched_in_the_slot_and_through_its_walls) {
   const System s = system_with(false, true, true, true);
-  const auto floor_of = [&](double corner_x) {
+  const auto placed_at = [&](double corner_x) {
     const State q{corner_x - s.half_width, -s.floor_depth - 0.01 + s.base_distance, 0.0, 0, 0, 0};
-    return at(placed(s, q), Site::b1_floor).phase;
+    return placed(s, q);
   };
-  EXPECT_EQ(floor_of(s.slot_half_width - 0.05), Phase::loaded);
-  EXPECT_EQ(floor_of(s.slot_half_width + 0.3), Phase::outside);
+  const ContactStates within = placed_at(s.slot_half_width - 0.05);
+  EXPECT_EQ(at(within, Site::b1).phase, Phase::outside);
+  EXPECT_EQ(at(within, Site::b1_floor).phase, Phase::loaded);
+  EXPECT_EQ(at(within, Site::b1_floor).face, Face::floor);
+  // nearer to the wall than to the top surface
+  const ContactStates behind = placed_at(s.slot_half_width + 0.3);
+  EXPECT_EQ(at(behind, Site::b1).face, Face::right_wall);
+  EXPECT_EQ(at(behind, Site::b1_floor).phase, Phase::loaded);
+  EXPECT_EQ(at(behind, Site::b1_floor).face, Face::floor);
+  // nearer to the top surface: below the floor's level, but in the base
+  const ContactStates beside = placed_at(s.slot_half_width + 0.5);
+  EXPECT_EQ(at(beside, Site::b1).face, Face::top);
+  EXPECT_EQ(at(beside, Site::b1_floor).phase, Phase::free);
+  EXPECT_EQ(at(beside, Site::b1_floor).face, Face::none);
 }
 
 // N = k d + h d' may be negative in a contact that lasts: then it carries nothing.
@@ -145,7 +158,8 @@ TEST(SiteRules, faces_end_where_the_bodies_do) {
   EXPECT_EQ(face_limits(s, Face::floor, {0.0, -s.floor_depth - 0.01}).count, 0);
 }
 
-// The face named by a limit is the one through which the point is then outside: its condition of the region is what fails.
+// The face named by a limit is the one through which the point is then outside: its condition of the region is what
+// fails.
 TEST(SiteRules, a_limit_names_the_condition_that_fails) {
   const System s = system_with(true, true, true, true);
   const auto expect_named = [&](Site site, int half, Face face, const Vec2& at_contact) {
@@ -157,7 +171,8 @@ TEST(SiteRules, a_limit_names_the_condition_that_fails) {
           EXPECT_EQ(region.conditions[k].value(p), limits.conditions[j].value(p));
       }
   };
-  for (const Face face : {Face::bottom, Face::right_side, Face::left_side}) expect_named(Site::a1, 0, face, {0.1, -0.9});
+  for (const Face face : {Face::bottom, Face::right_side, Face::left_side})
+    expect_named(Site::a1, 0, face, {0.1, -0.9});
   for (const Face face : {Face::top, Face::right_wall}) expect_named(Site::b1, 0, face, {0.9, -0.01});
   for (const Face face : {Face::top, Face::left_wall}) expect_named(Site::b2, 1, face, {-0.9, -0.01});
 }

@@ -72,6 +72,8 @@ State random_state(const System& system, const Touch& touch, std::mt19937& rando
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (;;) {
     State q{0.4 * u(random), 0.9 + 0.6 * u(random), 0.5 * u(random), 0.6 * u(random), 0.6 * u(random), u(random)};
+    if (!system.x.moves) q.vx = 0.0;
+    if (!system.phi.moves) q.omega = 0.0;
     const ContactKinematics k = contact_kinematics(system, q, touch.site, touch.face);
     // moved along the normal to a depth of 0.01 ... 0.05
     const double out = k.depth - (0.03 + 0.02 * u(random));
@@ -79,7 +81,9 @@ State random_state(const System& system, const Touch& touch, std::mt19937& rando
     q.y += out * k.normal.y;
     const ContactKinematics now = contact_kinematics(system, q, touch.site, touch.face);
     const double c = std::cos(q.phi), s = std::sin(q.phi);
-    if (stiffness_of(system, touch.face, c, s) * now.depth + damping_of(system, touch.face, c, s) * now.depth_rate > 0.1) return q;
+    if (stiffness_of(system, touch.face, c, s) * now.depth + damping_of(system, touch.face, c, s) * now.depth_rate >
+        0.1)
+      return q;
   }
 }
 
@@ -92,8 +96,8 @@ State at_rest_along(const System& system, State q, const Touch& touch) {
 }
 
 /// The step over which all series are cut off at 1e-15, as the solver takes it.
-double step_of(MotionSeries& series, Segment& g) {
-  return std::min({series_step(g, 1e-15), pair_step(series.direction(g), g.order, 1e-15), 0.5});
+double step_of(const System& system, MotionSeries& series, Segment& g) {
+  return std::min({series_step(g, system.friction, 1e-15), pair_step(series.direction(g), g.order, 1e-15), 0.5});
 }
 
 /// Checks the segment's series against the equations of motion at times up to the step.
@@ -120,24 +124,18 @@ void expect_motion(const Case& s, const Segment& g, double step, const std::vect
       const ContactKinematics k = contact_kinematics(system, q, touch.site, touch.face);
       // the law
       const double c = std::cos(q.phi), sine = std::sin(q.phi), f = system.friction;
-      const double n = stiffness_of(system, touch.face, c, sine) * k.depth + damping_of(system, touch.face, c, sine) * k.depth_rate;
+      const double n =
+          stiffness_of(system, touch.face, c, sine) * k.depth + damping_of(system, touch.face, c, sine) * k.depth_rate;
       double tangential = 0.0;
       switch (touch.slip) {
-        case Slip::plus:
-          tangential = -f * n;
-          break;
-        case Slip::minus:
-          tangential = f * n;
-          break;
-        case Slip::regularized:
-          tangential = -f * n * std::tanh(k.slip_velocity / system.regularization);
-          break;
+        case Slip::plus: tangential = -f * n; break;
+        case Slip::minus: tangential = f * n; break;
+        case Slip::regularized: tangential = -f * n * std::tanh(k.slip_velocity / system.regularization); break;
         case Slip::stick:  // found by the series; what it must do is keep V = 0
           tangential = value_at(series->tangential_force, g.order - 1, t);
           EXPECT_NEAR(k.slip_velocity, 0.0, 1e-13) << "t = " << t;
           break;
-        default:
-          break;
+        default: break;
       }
       const double digits = 1e-12 * (1.0 + std::abs(n));
       EXPECT_NEAR(value_at(series->depth, g.order, t), k.depth, 1e-14);
@@ -170,13 +168,14 @@ void expect_contacts(const Case& s, const State& start, const std::vector<Touch>
   for (const Touch& touch : touches)
     segment.contacts[static_cast<std::size_t>(touch.site)] = {Phase::loaded, touch.face, touch.slip};
   series.expand_contact(start, s.drives, kOrder, segment);
-  expect_motion(s, segment, step_of(series, segment), touches);
+  expect_motion(s, segment, step_of(s.system, series, segment), touches);
 }
 
 const std::vector<std::pair<Site, Face>>& places() {
-  static const std::vector<std::pair<Site, Face>> all = {
-      {Site::a1, Face::bottom}, {Site::a1, Face::right_side}, {Site::a2, Face::left_side}, {Site::a2, Face::bottom},
-      {Site::b1, Face::top},    {Site::b1, Face::right_wall}, {Site::b2, Face::left_wall}, {Site::b2_floor, Face::floor}};
+  static const std::vector<std::pair<Site, Face>> all = {{Site::a1, Face::bottom},    {Site::a1, Face::right_side},
+                                                         {Site::a2, Face::left_side}, {Site::a2, Face::bottom},
+                                                         {Site::b1, Face::top},       {Site::b1, Face::right_wall},
+                                                         {Site::b2, Face::left_wall}, {Site::b2_floor, Face::floor}};
   return all;
 }
 
@@ -201,9 +200,7 @@ TEST_P(MotionSeriesAt, slips_forward) { expect(Slip::plus); }
 TEST_P(MotionSeriesAt, slips_backward) { expect(Slip::minus); }
 TEST_P(MotionSeriesAt, sticks) { expect(Slip::stick); }
 TEST_P(MotionSeriesAt, with_regularised_friction) { expect(Slip::regularized, {"friction.regularization=0.5"}); }
-TEST_P(MotionSeriesAt, on_an_isotropic_base) {
-  expect(Slip::plus, {"base={stiffness: {y: 130}, damping: {y: 1.7}}"});
-}
+TEST_P(MotionSeriesAt, on_an_isotropic_base) { expect(Slip::plus, {"base={stiffness: {y: 130}, damping: {y: 1.7}}"}); }
 TEST_P(MotionSeriesAt, with_locked_motions) {
   expect(Slip::stick, {"part.inertia=null", "initial.phi=0.02"});
   expect(Slip::minus, {"gripper.stiffness.x=null"});
@@ -229,7 +226,8 @@ State wedged(const System& system, const Touch& a, const Touch& b, double phi, s
   const double wanted_a = u(random), wanted_b = u(random);
   State q{0.0, 0.9, phi, 0, 0, 0};
   for (int i = 0; i < 50; ++i) {
-    const ContactKinematics ka = contact_kinematics(system, q, a.site, a.face), kb = contact_kinematics(system, q, b.site, b.face);
+    const ContactKinematics ka = contact_kinematics(system, q, a.site, a.face),
+                            kb = contact_kinematics(system, q, b.site, b.face);
     const double ra = ka.depth - wanted_a, rb = kb.depth - wanted_b;
     const double det = ka.normal.x * kb.normal.y - ka.normal.y * kb.normal.x;
     q.x += (ra * kb.normal.y - rb * ka.normal.y) / det;
@@ -292,7 +290,7 @@ TEST(MotionSeries, flight) {
     MotionSeries series(s.system);
     Segment segment;
     series.expand_free({u(random), u(random), u(random), u(random), u(random), u(random)}, s.drives, kOrder, segment);
-    expect_motion(s, segment, step_of(series, segment), {});
+    expect_motion(s, segment, step_of(s.system, series, segment), {});
     if (testing::Test::HasFailure()) return;
   }
 }
@@ -312,14 +310,15 @@ TEST(MotionSeries, points_and_push_of_an_unloaded_contact) {
     for (int k = 0; k <= g.order; ++k) depth[k] = frame.sign * (frame.n1 * point[k][0] + frame.n2 * point[k][1]);
     depth[0] += frame.offset;
     series.push_series(g, face, depth, push);
-    const double step = std::min({step_of(series, g), pair_step(point, g.order, 1e-15), 0.1});
+    const double step = std::min({step_of(s.system, series, g), pair_step(point, g.order, 1e-15), 0.1});
     for (const double share : {0.0, 0.4, 0.9}) {
       const State q = state_at(g, share * step);
       const ContactKinematics k = contact_kinematics(s.system, q, site, face);
       const double c = std::cos(q.phi), n = std::sin(q.phi);
       EXPECT_NEAR(value_at(depth, g.order, share * step), k.depth, 1e-14);
       EXPECT_NEAR(value_at(push, g.order - 1, share * step),
-                  stiffness_of(s.system, face, c, n) * k.depth + damping_of(s.system, face, c, n) * k.depth_rate, 1e-11);
+                  stiffness_of(s.system, face, c, n) * k.depth + damping_of(s.system, face, c, n) * k.depth_rate,
+                  1e-11);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/motion_check.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
 
@@ -17,7 +18,8 @@ using Real = long double;
 
 /// A ball on a shaken base that takes k/h = 8 to recover, longer than some of its flights.
 Scene ball(double k, double h, double amplitude, double frequency) {
-  Scene scene = test::scene_of(test::ball, {"gripper={damping: {y: 0.05}, anchor: {y: 0.6}}", "initial.y=0.95", "base.recovery=true"});
+  Scene scene = test::scene_of(
+      test::ball, {"gripper={damping: {y: 0.05}, anchor: {y: 0.6}}", "initial.y=0.95", "base.recovery=true"});
   scene.base.stiffness_x = scene.base.stiffness_y = k;
   scene.base.damping_x = scene.base.damping_y = h;
   scene.excitations[0].amplitude = amplitude;
@@ -35,8 +37,13 @@ struct Ball {
 class BallIntegrator {
  public:
   BallIntegrator(const Scene& s)
-      : k_(s.base.stiffness_y), h_(s.base.damping_y), b_(s.part.base_distance), y_a_(*s.gripper.anchor_y),
-        h_y_(s.gripper.y.damping), amplitude_(s.excitations[0].amplitude), nu_(s.excitations[0].frequency),
+      : k_(s.base.stiffness_y),
+        h_(s.base.damping_y),
+        b_(s.part.base_distance),
+        y_a_(*s.gripper.anchor_y),
+        h_y_(s.gripper.y.damping),
+        amplitude_(s.excitations[0].amplitude),
+        nu_(s.excitations[0].frequency),
         q_{*s.initial.y, 0.0L, 0.0L} {}
 
   void run_to(Real end) {
@@ -53,8 +60,10 @@ class BallIntegrator {
         q_ = stepped(high);
         t_ += high;
         contact_ = !contact_;
-        if (contact_) touches.push_back(t_);
-        else releases.push_back(t_);
+        if (contact_)
+          touches.push_back(t_);
+        else
+          releases.push_back(t_);
       } else {
         q_ = next;
         t_ += h;
@@ -77,7 +86,9 @@ class BallIntegrator {
   bool over(Real, const Ball& q) const { return contact_ ? k_ * (b_ - q.y) - h_ * q.v < 0.0L : b_ - q.y > q.u; }
 
   Ball stepped(Real h) const {
-    const auto add = [](const Ball& a, const Ball& b, Real s) { return Ball{a.y + s * b.y, a.v + s * b.v, a.u + s * b.u}; };
+    const auto add = [](const Ball& a, const Ball& b, Real s) {
+      return Ball{a.y + s * b.y, a.v + s * b.v, a.u + s * b.u};
+    };
     Ball start = q_;
     if (contact_) start.u = b_ - q_.y;
     const Ball k1 = rate(t_, start), k2 = rate(t_ + 0.5L * h, add(start, k1, 0.5L * h));
@@ -105,7 +116,8 @@ void expect_same(const Scene& scene) {
   ASSERT_EQ(touches.size(), expected.touches.size());
   ASSERT_EQ(releases.size(), expected.releases.size());
   ASSERT_GE(touches.size(), 4u);
-  for (std::size_t i = 0; i < touches.size(); ++i) EXPECT_NEAR(touches[i], static_cast<double>(expected.touches[i]), 1e-8) << i;
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    EXPECT_NEAR(touches[i], static_cast<double>(expected.touches[i]), 1e-8) << i;
   const State end = test::run(scene, {}, scene.trial.time_limit).final_state;
   EXPECT_NEAR(end.y, static_cast<double>(expected.state().y), 1e-8);
   EXPECT_NEAR(end.vy, static_cast<double>(expected.state().v), 1e-7);
@@ -143,8 +155,29 @@ TEST(Recovery, of_a_fast_base_tends_to_the_default) {
   EXPECT_LT(test::distance(test::run(with, {}, 6.0).final_state, test::run(without, {}, 6.0).final_state), 1e-9);
 }
 
+// Flat on a base that is damped along x alone: h = H sin^2 phi, so that it recovers at once or nearly so.
+TEST(Recovery, of_a_base_with_almost_no_damping_along_the_normal) {
+  const std::string text = R"(
+part: {half_width: 1.0, base_distance: 1.3189476809787817, inertia: 0.1}
+slot: {clearance: 0.01}
+gripper: {stiffness: {phi: 1}, anchor: {x: 0, phi: 0, y: 1}}
+base: {stiffness: {x: 1.0e+4, y: 1.0e+4}, damping: {x: 0.3, y: 0}, recovery: true}
+contacts: [edges]
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0.4, y: 1.3189476675399427, phi: 0, vx: -1, omega: 1}
+trial: {time_limit: 1.0}
+)";
+  for (const char* tilt : {"0", "1.0e-9", "1.0e-8", "1.0e-7", "1.0e-6", "1.0e-4"}) {
+    const Scene scene = test::scene_of(text, {std::string("initial.phi=") + tilt});
+    const TrialResult result = test::checked_run(scene);
+    EXPECT_NE(result.outcome, Outcome::failed) << tilt << ": " << result.failure;
+    EXPECT_LT(result.energy->residual, 1e-9) << tilt;
+  }
+}
+
 TEST(Recovery, closes_the_ledger) {
-  for (const Scene& scene : {ball(400.0, 50.0, 1.0, 10.0), ball(1000.0, 6.0, 1.0, 10.0), ball(300.0, 60.0, 6.0, 40.0)}) {
+  for (const Scene& scene :
+       {ball(400.0, 50.0, 1.0, 10.0), ball(1000.0, 6.0, 1.0, 10.0), ball(300.0, 60.0, 6.0, 40.0)}) {
     const TrialResult result = test::run(scene, {}, 6.0);
     EXPECT_LT(result.energy->residual, 1e-9);
     // nothing is dropped: what the base keeps goes into its own damper

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/mirror.h"
 #include "../support/random_scenes.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
@@ -13,31 +14,15 @@ namespace vibratory_alignment {
 namespace {
 
 using test::events_of;
+using test::mirrored;
 using test::run;
 using test::TimedEvent;
-
-Scene mirrored(Scene s) {
-  s.initial.x = -s.initial.x;
-  s.initial.vx = -s.initial.vx;
-  s.initial.omega = -s.initial.omega;
-  if (s.initial.phi) s.initial.phi = -*s.initial.phi;
-  s.gripper.anchor_x = -s.gripper.anchor_x;
-  s.gripper.anchor_phi = -s.gripper.anchor_phi;
-  for (Excitation& e : s.excitations)
-    if (e.direction != Direction::y) e.amplitude = -e.amplitude;
-  return s;
-}
-
-State mirrored(const State& s) { return {-s.x, s.y, -s.phi, -s.vx, s.vy, -s.omega}; }
-
-Site twin(Site site) {
-  const int i = static_cast<int>(site);
-  return static_cast<Site>(i % 2 == 0 ? i + 1 : i - 1);
-}
+using test::twin;
 
 // One contact at a time: the same sums in the same order, so the same bits.
 TEST(Symmetry, a_mirrored_scene_gives_the_mirrored_motion_bit_for_bit) {
-  for (const char* law : {"friction={coefficient: 0.3}", "friction={coefficient: 0.3, regularization: 2.0e-3}", "friction=null"}) {
+  for (const char* law :
+       {"friction={coefficient: 0.3}", "friction={coefficient: 0.3, regularization: 2.0e-3}", "friction=null"}) {
     const Scene scene = test::scene_of(test::plain, {law});
     const std::vector<TimedEvent> right = events_of(scene), left = events_of(mirrored(scene));
     ASSERT_EQ(right.size(), left.size());
@@ -78,20 +63,23 @@ trial: {time_limit: 20.0, inserted_depth: 0.3}
 )";
 
 TEST(Symmetry, a_symmetric_scene_stays_symmetric_exactly) {
-  for (const char* law : {"friction={coefficient: 0.3}", "friction={coefficient: 0.3, regularization: 2.0e-3}", "friction=null",
-                          "base.recovery=true"}) {
+  for (const char* law : {"friction={coefficient: 0.3}", "friction={coefficient: 0.3, regularization: 2.0e-3}",
+                          "friction=null", "base.recovery=true"}) {
     const Scene scene = test::scene_of(straight, {law});
     long flat = 0;
-    const TrialResult result = run(scene, [&](const Segment& g) {
-      ASSERT_EQ(g.end.x, 0.0);
-      ASSERT_EQ(g.end.phi, 0.0);
-      ASSERT_EQ(g.end.vx, 0.0);
-      ASSERT_EQ(g.end.omega, 0.0);
-      const bool one = g.contacts[static_cast<std::size_t>(Site::b1_floor)].touching();
-      const bool other = g.contacts[static_cast<std::size_t>(Site::b2_floor)].touching();
-      ASSERT_EQ(one, other);
-      flat += one;
-    }, 20.0);
+    const TrialResult result = run(
+        scene,
+        [&](const Segment& g) {
+          ASSERT_EQ(g.end.x, 0.0);
+          ASSERT_EQ(g.end.phi, 0.0);
+          ASSERT_EQ(g.end.vx, 0.0);
+          ASSERT_EQ(g.end.omega, 0.0);
+          const bool one = g.contacts[static_cast<std::size_t>(Site::b1_floor)].touching();
+          const bool other = g.contacts[static_cast<std::size_t>(Site::b2_floor)].touching();
+          ASSERT_EQ(one, other);
+          flat += one;
+        },
+        20.0);
     EXPECT_GT(flat, 100) << law;
     EXPECT_EQ(result.impacts[2], result.impacts[3]);
     EXPECT_GT(result.impacts[2], 3);
@@ -102,15 +90,21 @@ TEST(Symmetry, a_symmetric_scene_stays_symmetric_exactly) {
 // Shaken along x while it stands flat on the floor with both corners: they share the load and slip together.
 TEST(Symmetry, two_corners_on_the_floor_share_the_friction) {
   // the tilt is held, so that both corners carry the same
-  const Scene scene = test::scene_of(straight, {"part.inertia=null", "initial.y=0.63", "gripper.anchor.y=-0.2", "initial.x=0",
-      "excitation={amplitude: 0.1, frequency: 3, direction: x}", "friction.coefficient=0.4", "trial.aligned_depth=0.29"});
-  run(scene, [&](const Segment& g) {
-    if (HasFailure() || g.loaded_count != 2 || g.loaded[0].normal_force[0] < 0.01) return;
-    ASSERT_NEAR(g.loaded[0].normal_force[0], g.loaded[1].normal_force[0], 1e-9);
-    ASSERT_EQ(g.contacts[static_cast<std::size_t>(Site::b1_floor)].slip, g.contacts[static_cast<std::size_t>(Site::b2_floor)].slip);
-    const double one = g.loaded[0].tangential_force[0], other = g.loaded[1].tangential_force[0];
-    ASSERT_NEAR(one, other, 1e-3 * (std::abs(one) + std::abs(other)) + 1e-9) << "at " << g.start.value();
-  }, 10.0);
+  const Scene scene =
+      test::scene_of(straight, {"part.inertia=null", "initial.y=0.63", "gripper.anchor.y=-0.2", "initial.x=0",
+                                "excitation={amplitude: 0.1, frequency: 3, direction: x}", "friction.coefficient=0.4",
+                                "trial.aligned_depth=0.29"});
+  run(
+      scene,
+      [&](const Segment& g) {
+        if (HasFailure() || g.loaded_count != 2 || g.loaded[0].normal_force[0] < 0.01) return;
+        ASSERT_NEAR(g.loaded[0].normal_force[0], g.loaded[1].normal_force[0], 1e-9);
+        ASSERT_EQ(g.contacts[static_cast<std::size_t>(Site::b1_floor)].slip,
+                  g.contacts[static_cast<std::size_t>(Site::b2_floor)].slip);
+        const double one = g.loaded[0].tangential_force[0], other = g.loaded[1].tangential_force[0];
+        ASSERT_NEAR(one, other, 1e-3 * (std::abs(one) + std::abs(other)) + 1e-9) << "at " << g.start.value();
+      },
+      10.0);
 }
 
 }  // namespace

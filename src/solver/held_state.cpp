@@ -1,0 +1,51 @@
+#include "solver/held_state.h"
+
+#include <cmath>
+
+#include "mechanics/contact_frame.h"
+#include "mechanics/mobility.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Rounding of V relative to the speeds that it is made of: left where contacts (nearly) hold the same motion.
+constexpr double kSpeedRounding = 1e-15;
+
+double moment_of(const Vec2& lever, const Vec2& force) { return lever.x * force.y - lever.y * force.x; }
+
+double reach_of(const Vec2& lever) { return std::abs(lever.x) + std::abs(lever.y); }
+
+}  // namespace
+
+State hold_sticking(const System& system, const State& state, const ContactStates& contacts) {
+  std::array<ContactKinematics, kSiteCount> held;
+  int count = 0;
+  for (std::size_t i = 0; i < kSiteCount; ++i)
+    if (contacts[i].slip == Slip::stick)
+      held[count++] = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
+  if (count == 0) return state;
+  Mobility::Matrix matrix{};
+  Mobility::Vector rhs{}, noise{};
+  for (int i = 0; i < count; ++i) {
+    rhs[i] = -held[i].slip_velocity;
+    const double speed = std::abs(state.vx) + std::abs(state.vy) + std::abs(state.omega) * reach_of(held[i].lever);
+    noise[i] = kSpeedRounding * speed;
+    for (int j = 0; j < count; ++j)
+      matrix[i][j] = held[i].tangent.x * held[j].tangent.x * system.x.inverse_inertia +
+                     held[i].tangent.y * held[j].tangent.y * system.y.inverse_inertia +
+                     moment_of(held[i].lever, held[i].tangent) * moment_of(held[j].lever, held[j].tangent) *
+                         system.phi.inverse_inertia;
+  }
+  Mobility mobility;
+  mobility.set(matrix, count, typical_mobility(system));
+  const Mobility::Vector impulse = mobility.hold(rhs, noise);
+  State result = state;
+  for (int i = 0; i < count; ++i) {
+    result.vx += impulse[i] * held[i].tangent.x * system.x.inverse_inertia;
+    result.vy += impulse[i] * held[i].tangent.y * system.y.inverse_inertia;
+    result.omega += impulse[i] * moment_of(held[i].lever, held[i].tangent) * system.phi.inverse_inertia;
+  }
+  return result;
+}
+
+}  // namespace vibratory_alignment

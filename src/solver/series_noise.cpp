@@ -1,0 +1,87 @@
+#include "solver/series_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/contact_frame.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Rounding of a coefficient relative to the largest term of its series.
+constexpr double kSeriesRounding = 4e-15;
+
+/// Rounding of the depth, which a stiff base turns into force, relative to the lengths that it is made of.
+constexpr double kStateRounding = 6e-16;
+
+/// Largest |g_k| h^k.
+double largest_term(const Series& g, int order, double h) {
+  double largest = 0.0, power = 1.0;
+  for (int k = 0; k <= order; ++k, power *= h) largest = std::max(largest, std::abs(g[k]) * power);
+  return largest;
+}
+
+}  // namespace
+
+bool SeriesNoise::is_finite() const {
+  double sum = 0.0;
+  for (const double rate : slip_rate) sum += rate;
+  return std::isfinite(sum);
+}
+
+SeriesNoise series_noise(const System& system, const Segment& segment, double h, double allowance) {
+  const double rounding = allowance * kSeriesRounding;
+  SeriesNoise noise;
+  noise.h = h;
+  const int order = segment.order;
+  const auto axis_force = [&](const Axis& axis, const Series& drive, const Series& q, const Series& v) {
+    return largest_term(drive, order, h) + axis.damping * largest_term(v, order, h) +
+           axis.stiffness * (std::abs(axis.anchor) + largest_term(q, order, h));
+  };
+  double x = axis_force(system.x, segment.drive_x, segment.x, segment.vx);
+  double y = axis_force(system.y, segment.drive_y, segment.y, segment.vy) + system.weight;
+  double moment = axis_force(system.phi, segment.drive_phi, segment.phi, segment.omega);
+
+  const double turn = largest_term(segment.omega, order, h);
+  const double reach = system.half_width + system.base_distance;
+  const double length = std::abs(segment.x[0]) + std::abs(segment.y[0]) + reach + system.slot_half_width;
+  const double speed = largest_term(segment.vx, order, h) + largest_term(segment.vy, order, h) + turn * length;
+  State start;
+  start.x = segment.x[0];
+  start.y = segment.y[0];
+  start.phi = segment.phi[0];
+  std::array<ContactKinematics, kSiteCount> kinematics;
+  const auto arm_of = [](const Vec2& lever, const Vec2& v) { return std::abs(lever.x * v.y - lever.y * v.x); };
+  double force_x = rounding * x, force_y = rounding * y, torque = rounding * moment;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[i];
+    const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
+    const double c = segment.cos_phi[0], s = segment.sin_phi[0];
+    const double stiff = stiffness_of(system, face, c, s), damping = damping_of(system, face, c, s);
+    noise.normal_force[i] = rounding * largest_term(contact.normal_force, order, h);
+    noise.state_normal_force[i] = allowance * kStateRounding * (stiff * length + damping * speed);
+    const double tangential =
+        system.friction * noise.normal_force[i] + rounding * largest_term(contact.tangential_force, order, h);
+    const ContactKinematics& k = kinematics[i] = contact_kinematics(system, start, contact.site, face);
+    force_x += std::abs(k.normal.x) * noise.normal_force[i] + std::abs(k.tangent.x) * tangential;
+    force_y += std::abs(k.normal.y) * noise.normal_force[i] + std::abs(k.tangent.y) * tangential;
+    torque += arm_of(k.lever, k.normal) * noise.normal_force[i] + arm_of(k.lever, k.tangent) * tangential;
+  }
+  const double curvature = rounding * turn * speed;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactKinematics& k = kinematics[i];
+    const auto rate = [&](double fx, double fy, double m) {
+      return std::abs(k.tangent.x) * system.x.inverse_inertia * fx +
+             std::abs(k.tangent.y) * system.y.inverse_inertia * fy +
+             arm_of(k.lever, k.tangent) * system.phi.inverse_inertia * m;
+    };
+    noise.slip_rate[i] = rate(force_x, force_y, torque) + curvature;
+    noise.mobility[i] = rate(std::abs(k.tangent.x), std::abs(k.tangent.y), arm_of(k.lever, k.tangent));
+    const double f = system.friction, own = noise.state_normal_force[i];
+    noise.state_slip_rate[i] =
+        own * (rate(std::abs(k.normal.x), std::abs(k.normal.y), arm_of(k.lever, k.normal)) + f * noise.mobility[i]);
+  }
+  return noise;
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,126 @@
+// Friction at an instant of rest, written once more from MODEL.md "Contact": what every contact's V' is made of, and
+// the only V' that Coulomb's law allows, by projected Gauss-Seidel on its minimum principle.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "mechanics/contact.h"
+#include "mechanics/state.h"
+#include "mechanics/system.h"
+#include "solver/motion_series.h"
+
+namespace vibratory_alignment::test {
+
+struct Touch {
+  Site site;
+  Face face;
+};
+
+/// One contact in world axes: normal n, tangent t = (n_y, -n_x), lever r from the mass centre.
+struct TouchPoint {
+  double nx, ny, tx, ty, rx, ry, depth, depth_rate, slip, normal_force;
+
+  double normal_moment() const { return rx * ny - ry * nx; }
+  double tangent_moment() const { return rx * ty - ry * tx; }
+};
+
+inline TouchPoint touch_point(const System& s, const State& q, const Touch& touch) {
+  const double cosine = std::cos(q.phi), sine = std::sin(q.phi),
+               side = static_cast<int>(touch.site) % 2 == 0 ? 1.0 : -1.0;
+  TouchPoint p{};
+  if (touch.site == Site::a1 || touch.site == Site::a2) {
+    p.rx = side * s.slot_half_width - q.x;
+    p.ry = -q.y;
+    const double along = p.rx * cosine + p.ry * sine, up = p.ry * cosine - p.rx * sine;
+    const double way = touch.face == Face::right_side ? -1.0 : 1.0;
+    const bool bottom = touch.face == Face::bottom;
+    p.nx = bottom ? -sine : way * cosine;
+    p.ny = bottom ? cosine : way * sine;
+    p.depth = bottom ? up + s.base_distance : s.half_width + way * along;
+  } else {
+    p.rx = side * s.half_width * cosine + s.base_distance * sine;
+    p.ry = side * s.half_width * sine - s.base_distance * cosine;
+    p.nx = touch.face == Face::right_wall ? -1.0 : touch.face == Face::left_wall ? 1.0 : 0.0;
+    p.ny = p.nx == 0.0 ? 1.0 : 0.0;
+    const double surface = p.nx != 0.0 ? -s.slot_half_width : touch.face == Face::floor ? -s.floor_depth : 0.0;
+    p.depth = surface - p.nx * (q.x + p.rx) - p.ny * (q.y + p.ry);
+  }
+  p.tx = p.ny;
+  p.ty = -p.nx;
+  const double vx = q.vx - q.omega * p.ry, vy = q.vy + q.omega * p.rx;
+  p.depth_rate = -(vx * p.nx + vy * p.ny);
+  p.slip = vx * p.tx + vy * p.ty;
+  const double stiffness = s.stiffness_y * p.ny * p.ny + s.stiffness_x * p.nx * p.nx;
+  const double damping = s.damping_y * p.ny * p.ny + s.damping_x * p.nx * p.nx;
+  p.normal_force = stiffness * p.depth + damping * p.depth_rate;
+  return p;
+}
+
+/// V' = drift + G T with |T_i| <= limit_i, for contacts of a part whose velocities are zero.
+struct FrictionProblem {
+  using Vector = std::array<double, kSiteCount>;
+  int count = 0;
+  std::array<Vector, kSiteCount> mobility{};
+  Vector drift{}, limit{};
+
+  Vector rates(const Vector& force) const {
+    Vector rate{};
+    for (int i = 0; i < count; ++i) {
+      rate[i] = drift[i];
+      for (int j = 0; j < count; ++j) rate[i] += mobility[i][j] * force[j];
+    }
+    return rate;
+  }
+
+  /// V' of the minimum of 1/2 T.G.T + drift.T in the box, one coordinate at a time until nothing moves: V' is unique, T
+  /// need not be.
+  Vector true_rates() const {
+    Vector force{};
+    for (int sweep = 0; sweep < 200000; ++sweep) {
+      double change = 0.0, largest = 0.0;
+      for (int i = 0; i < count; ++i) {
+        if (mobility[i][i] <= 0.0) continue;
+        const double next = std::clamp(force[i] - rates(force)[i] / mobility[i][i], -limit[i], limit[i]);
+        change = std::max(change, std::abs(next - force[i]));
+        largest = std::max(largest, std::abs(next));
+        force[i] = next;
+      }
+      if (change <= 1e-16 * largest) break;
+    }
+    return rates(force);
+  }
+};
+
+inline FrictionProblem friction_problem(const System& s, const State& q, const DriveForms& drives,
+                                        const std::vector<Touch>& touches) {
+  double fx = -s.x.stiffness * (q.x - s.x.anchor), fy = -s.y.stiffness * (q.y - s.y.anchor) - s.weight;
+  double moment = -s.phi.stiffness * (q.phi - s.phi.anchor);
+  for (int i = 0; i < drives.count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const Direction direction = drives.direction[index];
+    (direction == Direction::x ? fx : direction == Direction::y ? fy : moment) += drives.form[index].at(0.0);
+  }
+  std::vector<TouchPoint> points;
+  for (const Touch& touch : touches) points.push_back(touch_point(s, q, touch));
+  for (const TouchPoint& p : points) {
+    fx += p.normal_force * p.nx;
+    fy += p.normal_force * p.ny;
+    moment += p.normal_force * p.normal_moment();
+  }
+  FrictionProblem problem;
+  problem.count = static_cast<int>(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = points[i].tx * s.x.inverse_inertia, y = points[i].ty * s.y.inverse_inertia;
+    const double turn = points[i].tangent_moment() * s.phi.inverse_inertia;
+    problem.limit[i] = s.friction * points[i].normal_force;
+    problem.drift[i] = x * fx + y * fy + turn * moment;
+    for (std::size_t j = 0; j < points.size(); ++j)
+      problem.mobility[i][j] = x * points[j].tx + y * points[j].ty + turn * points[j].tangent_moment();
+  }
+  return problem;
+}
+
+}  // namespace vibratory_alignment::test
