@@ -40,6 +40,18 @@ constexpr int kMaxEventsWithoutProgress = 100;
 /// A base deformation that is nothing (relative to lengths of order one).
 constexpr double kNoDeformation = 1e-18;
 
+/// Error of an implicit step as a share of the tolerance asked for.
+constexpr double kImplicitShare = 1e-2;
+
+/// An implicit step costs as much as so many series steps.
+constexpr double kImplicitCost = 12.0;
+
+/// Implicit steps that may go to waste before series steps take over again.
+constexpr double kMostDebt = 6.0;
+
+/// Series steps in one contact until an implicit one is tried, and at most between two trials.
+constexpr int kFirstTrial = 48, kLastTrial = 1024;
+
 /// Factor on rounding beyond which sticking contacts have to move apart.
 constexpr double kPartAllowance = 10.0;
 
@@ -78,14 +90,17 @@ bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx +
 }  // namespace
 
 EventSolver::EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance,
-                         long step_limit)
+                         long step_limit, ContactMethod method)
     : system_(system),
       tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
       contact_order_(series_order(tolerance_)),
       step_limit_(step_limit),
+      method_(method),
       series_(system_),
       friction_(system_, tolerance_),
+      implicit_(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance)),
       flight_(excitations.size()) {
+  if (method_ != ContactMethod::series) collocation();  // made now, not in the first step
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
   for (const Excitation& excitation : excitations) drives_.emplace_back(excitation, now_);
@@ -152,6 +167,7 @@ void EventSolver::go_to_end() {
   mode_ = next_mode_;
   drives_ = next_drives_;
   counts_.events += segment_.event_count;
+  if (segment_.event_count > 0) implicit_.restart();
   for (int i = 0; i < segment_.event_count; ++i) {
     const EventKind kind = segment_.events[static_cast<std::size_t>(i)].kind;
     if (kind == EventKind::drive_kink) in_flight_ = false;
@@ -176,6 +192,42 @@ bool EventSolver::leap(double longest) {
   segment_.duration = time;
   ++counts_.rhs_evaluations;
   return true;
+}
+
+/// Expands the motion in contact; the length that its truncation error allows.
+double EventSolver::series_contact_step(const DriveForms& drives) {
+  series_.expand_contact(state_, drives, contact_order_, segment_);
+  // rates so high that their powers overflow
+  if (!is_finite(segment_)) series_.expand_contact(state_, drives, kLowOrder, segment_);
+  return std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
+}
+
+/// One step in contact of at most `longest`, by the method that is due. Automatic: after a number of series steps in
+/// one contact an implicit step is tried; it stays with these while they go as far as the series would at the same
+/// cost.
+double EventSolver::contact_step(double longest, const DriveForms& drives) {
+  if (method_ == ContactMethod::automatic && !stays_implicit_ && series_steps_ >= trial_after_) {
+    implicit_.suggest(2.0 * kImplicitCost * series_step_);
+    stays_implicit_ = true;
+    implicit_debt_ = kMostDebt - 1.0;
+  }
+  if (method_ == ContactMethod::implicit || stays_implicit_) {
+    const double step = implicit_.take(state_, drives, longest, segment_, counts_);
+    if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
+    if (step < longest) implicit_debt_ = std::max(0.0, implicit_debt_ + 1.0 - step / (kImplicitCost * series_step_));
+    if (step > 0.0 && (method_ == ContactMethod::implicit || implicit_debt_ < kMostDebt)) {
+      implicit_now_ = true;
+      implicit_length_ = step;
+      series_.adopt(segment_);
+      return step;
+    }
+    stays_implicit_ = false;
+    series_steps_ = 0;
+    trial_after_ = std::min(2 * trial_after_, kLastTrial);
+  }
+  series_step_ = series_contact_step(drives);
+  ++series_steps_;
+  return series_step_;
 }
 
 const Segment& EventSolver::advance(double limit) {
@@ -203,6 +255,9 @@ const Segment& EventSolver::advance(double limit) {
   if (contact) {
     in_flight_ = false;
   } else {
+    stays_implicit_ = false;
+    series_steps_ = 0;
+    trial_after_ = kFirstTrial;
     // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
     const bool long_ago = in_flight_ && (now_ - flight_.start()) * flight_.rate() > kLongestFlight;
     if (!in_flight_ || long_ago) flight_.begin(system_, state_, drives, now_);
@@ -210,27 +265,26 @@ const Segment& EventSolver::advance(double limit) {
     segment_.flight_time = now_ - flight_.start();
   }
 
+  implicit_now_ = false;
   FoundEvents found;
   const double end = std::min(to_limit, to_kink);
   if (contact || !leap(end)) {
     // power series, to the first of: end of the step, limit, kink of an excitation, event
     double step = 0.0;
     if (contact) {
-      series_.expand_contact(state_, drives, contact_order_, segment_);
-      // rates so high that their powers overflow
-      if (!is_finite(segment_)) series_.expand_contact(state_, drives, kLowOrder, segment_);
-      step = std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
+      step = contact_step(end, drives);
     } else {
       series_.expand_free(state_, drives, kFlightOrder, segment_);
       step = series_step(segment_, system_.friction, kFlightTolerance);
     }
     if (!is_finite(segment_)) fail("the motion is no longer finite");
     // the series of the points turn with the part; those of the other edge and the corners follow from these
+    segment_.coarse = implicit_now_;
     const double point_tolerance = contact ? tolerance_ : kFlightTolerance;
     step = std::min({step, end, pair_step(series_.direction(segment_), segment_.order, point_tolerance)});
     if (!contact && system_.contacts.edges)
       step = std::min(step, pair_step(series_.point(Site::a1, segment_), segment_.order, point_tolerance));
-    counts_.rhs_evaluations += segment_.order;
+    if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
     for (const Recovery& recovery : mode_.recoveries)
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
     segment_.duration = step;
@@ -243,13 +297,20 @@ const Segment& EventSolver::advance(double limit) {
     } else {
       found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
     }
-    if (found.count > 0) segment_.duration = found.time;
+    if (found.count > 0) {
+      segment_.duration = found.time;
+      if (implicit_now_ && found.time > 0.0 && implicit_.retake(found.time, segment_, counts_))
+        implicit_length_ = found.time;
+    }
   }
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
     fail("the step has become too short");
 
-  segment_.end = contact ? state_at(segment_, segment_.duration) : flight_state(segment_.duration);
+  const bool whole_step = implicit_now_ && segment_.duration == implicit_length_;
+  segment_.end = whole_step ? implicit_.end()
+                 : contact  ? state_at(segment_, segment_.duration)
+                            : flight_state(segment_.duration);
   if (!is_finite(segment_.end)) fail("the motion is no longer finite");
   prepare_next(found, kink);
   return segment_;

@@ -3,14 +3,19 @@
 #pragma once
 
 #include "solver/flight.h"
+#include "solver/implicit_step.h"
 #include "solver/solver.h"
 #include "solver/transitions.h"
 
 namespace vibratory_alignment {
 
+/// How contact is stepped: power series, implicit steps, or whichever goes further for its cost.
+enum class ContactMethod { series, implicit, automatic };
+
 class EventSolver final : public Solver {
  public:
-  EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance, long step_limit);
+  EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance, long step_limit,
+              ContactMethod method = ContactMethod::series);
 
   const Segment& advance(double limit) override;
   const Segment& segment() const override { return segment_; }
@@ -24,6 +29,8 @@ class EventSolver final : public Solver {
   State flight_state(double duration) const;
   double tanh_layer_step() const;
   bool must_part() const;
+  double series_contact_step(const DriveForms& drives);
+  double contact_step(double longest, const DriveForms& drives);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
@@ -42,8 +49,17 @@ class EventSolver final : public Solver {
   OutcomeGuards outcomes_;
   bool started_ = false;
 
+  ContactMethod method_;
   MotionSeries series_;
   FrictionChoice friction_;
+  ImplicitStep implicit_;
+  bool implicit_now_ = false;  ///< the current segment is an implicit step
+  double implicit_length_ = 0.0;
+  double implicit_debt_ = 0.0;   ///< automatic: steps' worth by which implicit steps have fallen behind the series
+  bool stays_implicit_ = false;  ///< automatic: implicit steps have proved worth while in this contact
+  int series_steps_ = 0;         ///< automatic: series steps in contact since the last trial of an implicit one
+  int trial_after_ = 48;         ///< automatic: so many series steps until the next trial
+  double series_step_ = 0.0;     ///< automatic: length of the last series step
   Segment segment_;
 
   bool in_flight_ = false;  ///< flight_ is the present one

@@ -24,17 +24,7 @@ void add_drive(const DriveForm& form, int order, Series& series) {
   }
 }
 
-/// 1/k.
-constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
-  std::array<double, kMaxOrder + 4> inverse{};
-  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = 1.0 / static_cast<double>(k);
-  return inverse;
-}();
-
 int point_index(Site site) { return (is_edge(site) ? 0 : 2) + pair_index(site); }
-
-/// Rounding of V' relative to the sizes of its terms.
-constexpr double kSlipRateRounding = 1e-15;
 
 /// k(n) = c0 + c1 cos^2 phi on the faces of the part, power k.
 void turning_term(const System& system, Face face, int k, const Segment& segment, double& stiffness, double& damping) {
@@ -56,23 +46,33 @@ double turning_push(const Series& stiffness, const Series& damping, const Series
 
 }  // namespace
 
-void MotionSeries::start(const State& start, const DriveForms& drives, int order, Segment& segment) {
+/// Direction of power 0; nothing else is known.
+void MotionSeries::restart(int order, Segment& segment) {
   order_ = order;
   segment.order = order;
+  const double c = std::cos(segment.phi[0]), s = std::sin(segment.phi[0]);
+  segment.cos_phi[0] = c;
+  segment.sin_phi[0] = s;
+  direction_[0] = Pair(c, s);
+  mirrored_[0] = Pair(c, -s);
+  swapped_[0] = Pair(s, c);
+  known_trig_ = 0;
+  known_centre_ = -1;
+  known_point_.fill(-1);
+  sticking_count_ = 0;
+  not_held_.fill(0.0);
+}
+
+void MotionSeries::adopt(Segment& segment) { restart(segment.order, segment); }
+
+void MotionSeries::start(const State& start, const DriveForms& drives, int order, Segment& segment) {
   segment.x[0] = start.x;
   segment.y[0] = start.y;
   segment.phi[0] = start.phi;
   segment.x[1] = segment.vx[0] = start.vx;
   segment.y[1] = segment.vy[0] = start.vy;
   segment.phi[1] = segment.omega[0] = start.omega;
-  segment.cos_phi[0] = std::cos(start.phi);
-  segment.sin_phi[0] = std::sin(start.phi);
-  known_trig_ = 0;
-  direction_[0] = Pair(segment.cos_phi[0], segment.sin_phi[0]);
-  mirrored_[0] = Pair(segment.cos_phi[0], -segment.sin_phi[0]);
-  swapped_[0] = Pair(segment.sin_phi[0], segment.cos_phi[0]);
-  known_centre_ = -1;
-  known_point_.fill(-1);
+  restart(order, segment);
   for (Series* series : {&segment.drive_x, &segment.drive_y, &segment.drive_phi})
     std::fill(series->begin(), series->begin() + order + 1, 0.0);
   for (int i = 0; i < drives.count; ++i) {
@@ -156,8 +156,6 @@ const PairSeries& MotionSeries::direction(Segment& segment) {
 
 void MotionSeries::set_up_contacts(Segment& segment) {
   segment.loaded_count = 0;
-  sticking_count_ = 0;
-  not_held_.fill(0.0);
   for (int i = 0; i < kSiteCount; ++i) {
     const ContactState& state = segment.contacts[i];
     if (state.phase != Phase::loaded) continue;
@@ -253,117 +251,6 @@ void MotionSeries::force_term(Contact& contact, int k, ContactSeries& series, co
   direction_terms(contact, k);
 }
 
-void MotionSeries::set_up_mobility() {
-  Mobility::Matrix matrix{};
-  for (int m = 0; m < sticking_count_; ++m)
-    for (int n = 0; n < sticking_count_; ++n) {
-      const Contact& a = contacts_[sticking_[m]];
-      const Contact& b = contacts_[sticking_[n]];
-      matrix[m][n] = system_.x.inverse_inertia * a.drag[0][0] * b.drag[0][0] +
-                     system_.y.inverse_inertia * a.drag[0][1] * b.drag[0][1] +
-                     system_.phi.inverse_inertia * a.drag_moment[0] * b.drag_moment[0];
-    }
-  mobility_.set(matrix, sticking_count_, typical_mobility(system_));
-}
-
-double MotionSeries::slip_rate_size(const Segment& segment) const {
-  const auto force = [](const Axis& axis, const Series& drive, const Series& q, const Series& v) {
-    return std::abs(drive[0]) + axis.damping * std::abs(v[0]) + axis.stiffness * std::abs(q[0] - axis.anchor);
-  };
-  const double reach = system_.half_width + system_.base_distance;
-  double forces = system_.weight;
-  for (int i = 0; i < segment.loaded_count; ++i)
-    forces += std::abs(segment.loaded[i].normal_force[0]) + std::abs(segment.loaded[i].tangential_force[0]);
-  const double turn = std::abs(segment.omega[0]),
-               speed = std::abs(segment.vx[0]) + std::abs(segment.vy[0]) + reach * turn;
-  return system_.x.inverse_inertia * (force(system_.x, segment.drive_x, segment.x, segment.vx) + forces) +
-         system_.y.inverse_inertia * (force(system_.y, segment.drive_y, segment.y, segment.vy) + forces) +
-         reach * system_.phi.inverse_inertia *
-             (force(system_.phi, segment.drive_phi, segment.phi, segment.omega) + reach * forces) +
-         turn * speed;
-}
-
-/// Sum of the absolute values of what V' of power k is made of: what its rounding is measured by.
-double MotionSeries::slip_rate_size(const Contact& contact, int k, const Segment& segment) const {
-  const auto axis_size = [&](const Axis& axis, const Series& drive, const Series& q, const Series& v) {
-    return std::abs(drive[k]) + axis.damping * std::abs(v[k]) + axis.stiffness * std::abs(q[k]);
-  };
-  double x =
-      axis_size(system_.x, segment.drive_x, segment.x, segment.vx) + system_.x.stiffness * std::abs(system_.x.anchor);
-  double y = axis_size(system_.y, segment.drive_y, segment.y, segment.vy) + std::abs(system_.y.anchor) + system_.weight;
-  double moment = axis_size(system_.phi, segment.drive_phi, segment.phi, segment.omega);
-  for (int i = 0; i < segment.loaded_count; ++i) {
-    const Contact& other = contacts_[i];
-    const ContactSeries& series = segment.loaded[i];
-    for (int j = 0; j <= k; ++j) {
-      const double n = std::abs(series.normal_force[k - j]);
-      x += std::abs(other.push[j][0]) * n;
-      y += std::abs(other.push[j][1]) * n;
-      moment += std::abs(other.push_moment[j]) * n;
-      if (!other.separate_t) continue;
-      const double t = std::abs(series.tangential_force[k - j]);
-      x += std::abs(other.drag[j][0]) * t;
-      y += std::abs(other.drag[j][1]) * t;
-      moment += std::abs(other.drag_moment[j]) * t;
-    }
-  }
-  // V' along t, and what turning adds to it
-  const double size = std::abs(contact.drag[0][0]) * system_.x.inverse_inertia * x +
-                      std::abs(contact.drag[0][1]) * system_.y.inverse_inertia * y +
-                      std::abs(contact.drag_moment[0]) * system_.phi.inverse_inertia * moment;
-  double turning = 0.0;
-  for (int j = 0; j <= k + 1; ++j) {
-    const double reach =
-        j == 0 ? system_.half_width + system_.base_distance : std::abs(segment.x[j]) + std::abs(segment.y[j]);
-    turning += reach * direction_[k + 2 - j].abs().sum();
-  }
-  return size + (k + 2) * (k + 1) * turning;
-}
-
-/// Tangential forces of power k that keep V = 0: T = 0 first, then G T = -V' corrects the acceleration.
-void MotionSeries::hold_sticking(int k, Segment& segment) {
-  if (k == 0) set_up_mobility();
-  // V' of power k without the forces sought
-  trig_term(k + 2, segment);
-  Mobility::Vector rhs{}, noise{};
-  for (int m = 0; m < sticking_count_; ++m) {
-    const Contact& contact = contacts_[sticking_[m]];
-    point_term(contact.point, k + 2, segment);
-    const PairSeries& point = points_[contact.point];
-    const ContactFrame& f = contact.frame;
-    rhs[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point[k + 2][0] + f.t2() * point[k + 2][1]);
-    if (!mobility_.regular()) noise[m] = kSlipRateRounding * slip_rate_size(contact, k, segment);
-  }
-  const Mobility::Vector held = mobility_.hold(rhs, noise);
-  for (int m = 0; m < sticking_count_; ++m) {
-    const Contact& contact = contacts_[sticking_[m]];
-    const Pair& d = contact.drag[0];
-    const double force = held[m];
-    segment.loaded[sticking_[m]].tangential_force[k] = force;
-    segment.vx[k + 1] += system_.x.inverse_inertia * d[0] * force / (k + 1);
-    segment.vy[k + 1] += system_.y.inverse_inertia * d[1] * force / (k + 1);
-    segment.omega[k + 1] += system_.phi.inverse_inertia * contact.drag_moment[0] * force / (k + 1);
-    if (k < kHeldPowers && !mobility_.regular()) {
-      const double left = std::abs(mobility_.left_over(m, rhs, held));
-      if (left > noise[m]) not_held_[k] = std::max(not_held_[k], left);
-    }
-  }
-  segment.x[k + 2] = segment.vx[k + 1] / (k + 2);
-  segment.y[k + 2] = segment.vy[k + 1] / (k + 2);
-  segment.phi[k + 2] = segment.omega[k + 1] / (k + 2);
-  known_centre_ = std::min(known_centre_, k + 1);  // that of k + 2 was without these forces
-}
-
-std::array<double, kSiteCount> MotionSeries::holding_force_noise(
-    const std::array<double, kSiteCount>& slip_rate_noise) const {
-  Mobility::Vector rate{};
-  for (int m = 0; m < sticking_count_; ++m) rate[m] = slip_rate_noise[sticking_[m]];
-  const Mobility::Vector spread = mobility_.spread(rate);
-  std::array<double, kSiteCount> noise{};
-  for (int m = 0; m < sticking_count_; ++m) noise[sticking_[m]] = spread[m];
-  return noise;
-}
-
 MotionSeries::Load MotionSeries::contact_load(int k, const Segment& segment) const {
   Load load;
   for (int i = 0; i < segment.loaded_count; ++i) {
@@ -379,130 +266,11 @@ MotionSeries::Load MotionSeries::contact_load(int k, const Segment& segment) con
   return load;
 }
 
-/// The whole expansion for one contact that slides (or whose friction is regularised) on a base whose stiffness does
-/// not turn: the same recurrences, in one loop.
-template <bool kEdge, bool kTurns, bool kTanh>
-void MotionSeries::expand_single(Segment& segment) {
-  const Contact& contact = contacts_[0];
-  ContactSeries& series = segment.loaded[0];
-  PairSeries& point = points_[contact.point];
-  const int order = segment.order;
-  const ContactFrame& f = contact.frame;
-  const double side = side_of(contact.site), l = side * system_.slot_half_width, beta = side * system_.half_width,
-               b0 = system_.base_distance;
-  const Pair depth_row(f.sign * f.n1, f.sign * f.n2), slip_row(-f.sign * f.t1(), -f.sign * f.t2());
-  const Pair force_row(contact.force1, contact.force2), moment_row(contact.force2, -contact.force1),
-      crossed_row(-contact.force2, contact.force1);
-  const Pair drag_row(f.t1(), f.t2()), drag_moment_row(f.t2(), -f.t1()), drag_crossed_row(-f.t2(), f.t1());
-  const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
-               fast_phi = system_.phi.inverse_inertia, eps = system_.regularization;
-  PairSeries push, drag;
-  Series push_moment, drag_moment, tanh, sech2;
-  for (int k = -1; k < order + 1; ++k) {
-    // direction, point and depth of power k + 1
-    if (k >= 0) {
-      Pair turn(0.0, 0.0);
-      if (kTurns) turn = product_term(direction_, segment.omega, k) * kInverse[k + 1];
-      direction_[k + 1] = Pair(-turn[1], turn[0]);
-      mirrored_[k + 1] = Pair(-turn[1], -turn[0]);
-      swapped_[k + 1] = Pair(turn[0], -turn[1]);
-      segment.cos_phi[k + 1] = -turn[1];
-      segment.sin_phi[k + 1] = turn[0];
-    }
-    const int n = k + 1;
-    const Pair& d = direction_[n];
-    if (kEdge) {
-      Pair along = segment.x[n] * mirrored_[0], across = segment.y[n] * swapped_[0];
-      if (kTurns)
-        for (int j = 0; j < n; ++j) {
-          along += segment.x[j] * mirrored_[n - j];
-          across += segment.y[j] * swapped_[n - j];
-        }
-      centre_[n] = along + across;
-      point[n] = l * mirrored_[n] - centre_[n];
-    } else {
-      point[n] = Pair(segment.x[n] + beta * d[0] + b0 * d[1], segment.y[n] + beta * d[1] - b0 * d[0]);
-    }
-    series.depth[n] = (depth_row * point[n]).sum();
-    if (k < 0) {
-      series.depth[0] += f.offset;
-      continue;
-    }
-    // forces of power k
-    const double normal = contact.stiffness * series.depth[k] + contact.damping * n * series.depth[n];
-    series.normal_force[k] = normal;
-    series.slip_velocity[k] = n * (slip_row * point[n]).sum();
-    const Pair lever =
-        kEdge ? point[k]
-              : Pair(beta * direction_[k][0] + b0 * direction_[k][1], beta * direction_[k][1] - b0 * direction_[k][0]);
-    push_moment[k] = (moment_row * lever).sum();
-    if (kEdge) push[k] = force_row[0] * direction_[k] + force_row[1] * Pair(-direction_[k][1], direction_[k][0]);
-    Pair force;
-    double moment = 0.0;
-    if (kEdge && kTurns)
-      force = product_term(push, series.normal_force, k);
-    else
-      force = normal * (kEdge ? push[0] : force_row);
-    if (kTurns) moment = product_term(push_moment, series.normal_force, k);
-    if (kTanh) {
-      if (k == 0) {
-        tanh[0] = std::tanh(series.slip_velocity[0] / eps);
-      } else {
-        double z = 0.0;
-        for (int j = 0; j < k; ++j) z += (j + 1) * series.slip_velocity[j + 1] * sech2[k - 1 - j];
-        tanh[k] = z * kInverse[k] / eps;
-      }
-      sech2[k] = (k == 0 ? 1.0 : 0.0) - product_term(tanh, tanh, k);
-      series.tangential_force[k] = -system_.friction * product_term(series.normal_force, tanh, k);
-      drag_moment[k] = (drag_moment_row * lever).sum();
-      if (kEdge) drag[k] = drag_row[0] * direction_[k] + drag_row[1] * Pair(-direction_[k][1], direction_[k][0]);
-      if (kEdge && kTurns)
-        force += product_term(drag, series.tangential_force, k);
-      else
-        force += series.tangential_force[k] * (kEdge ? drag[0] : drag_row);
-      if (kTurns) moment += product_term(drag_moment, series.tangential_force, k);
-    } else {
-      series.tangential_force[k] = contact.ratio * normal;
-    }
-    if (k == order) break;
-    // velocity of power k + 1, position of power k + 2
-    const double dx = k == 0 ? segment.x[0] - system_.x.anchor : segment.x[k];
-    const double dy = k == 0 ? segment.y[0] - system_.y.anchor : segment.y[k];
-    const double weight = k == 0 ? system_.weight : 0.0;
-    const double inverse = kInverse[n], next_inverse = kInverse[n + 1];
-    segment.vx[n] = fast_x * inverse *
-                    (segment.drive_x[k] + force[0] - system_.x.damping * segment.vx[k] - system_.x.stiffness * dx);
-    segment.vy[n] =
-        fast_y * inverse *
-        (segment.drive_y[k] + force[1] - weight - system_.y.damping * segment.vy[k] - system_.y.stiffness * dy);
-    segment.x[n + 1] = segment.vx[n] * next_inverse;
-    segment.y[n + 1] = segment.vy[n] * next_inverse;
-    if (kTurns) {
-      const double dphi = k == 0 ? segment.phi[0] - system_.phi.anchor : segment.phi[k];
-      segment.omega[n] =
-          fast_phi * inverse *
-          (segment.drive_phi[k] + moment - system_.phi.damping * segment.omega[k] - system_.phi.stiffness * dphi);
-      segment.phi[n + 1] = segment.omega[n] * next_inverse;
-    } else {
-      segment.omega[n] = segment.phi[n + 1] = 0.0;
-    }
-  }
-  known_trig_ = order + 1;
-  known_point_[contact.point] = order + 1;
-  if (kEdge) known_centre_ = order + 1;
-}
-
 void MotionSeries::expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment) {
   this->start(start, drives, order, segment);
   set_up_contacts(segment);
   if (segment.loaded_count == 1 && sticking_count_ == 0 && !contacts_[0].turning) {
-    const bool edge = is_edge(contacts_[0].site), turns = system_.phi.moves, tanh = contacts_[0].separate_t;
-    if (edge)
-      turns ? (tanh ? expand_single<true, true, true>(segment) : expand_single<true, true, false>(segment))
-            : (tanh ? expand_single<true, false, true>(segment) : expand_single<true, false, false>(segment));
-    else
-      turns ? (tanh ? expand_single<false, true, true>(segment) : expand_single<false, true, false>(segment))
-            : (tanh ? expand_single<false, false, true>(segment) : expand_single<false, false, false>(segment));
+    expand_single(segment);
     return;
   }
   for (int i = 0; i < segment.loaded_count; ++i) {

@@ -28,6 +28,9 @@ class MotionSeries {
   /// Fills the segment with its loaded contacts (segment.contacts) from `start`. Sticking contacts have V = 0 exactly.
   void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
 
+  /// Takes over a segment whose x ... omega were made elsewhere, for what point() and direction() tell about it.
+  void adopt(Segment& segment);
+
   /// Power up to which it is watched whether sticking contacts can hold together.
   static constexpr int kHeldPowers = 6;
 
@@ -74,6 +77,7 @@ class MotionSeries {
     double moment = 0.0;
   };
 
+  void restart(int order, Segment& segment);
   void start(const State& start, const DriveForms& drives, int order, Segment& segment);
   void set_up_contacts(Segment& segment);
   void trig_term(int k, Segment& segment);
@@ -87,8 +91,9 @@ class MotionSeries {
   void direction_terms(Contact& contact, int k) const;
   Load contact_load(int k, const Segment& segment) const;
   void accelerate(int k, const Load& load, Segment& segment) const;
-  template <bool kEdge, bool kTurns, bool kTanh>
   void expand_single(Segment& segment);
+  template <bool kEdge, bool kTurns, bool kTanh>
+  void expand_single_of(Segment& segment);
 
   const System& system_;
   int order_ = 0;

@@ -166,6 +166,10 @@ Entry first_entry(const Conditions& conditions, int order, double h) {
     orders[i] = deflate(unit.g[i], order, conditions.zeros_at_start[i]);
   }
   Entry entry = first_entry_on_unit(unit, orders, 0);
+  // inside from the start: through the face on which the point lies
+  if (entry.time == 0.0)
+    for (int i = 0; i < conditions.count; ++i)
+      if (conditions.zeros_at_start[i] > 0) entry.last = i;
   if (entry.time != kNoRoot) entry.time *= h;
   return entry;
 }

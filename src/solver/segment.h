@@ -51,6 +51,7 @@ struct Segment {
   State begin;  ///< the state at its start
   double duration = 0.0;
   int order = 0;                   ///< highest power that the series hold
+  bool coarse = false;             ///< made by an implicit step, which does not follow what is faster than it
   const Flight* flight = nullptr;  ///< set: a leap in flight, in closed form instead of series (x ... drive_phi unused)
   double flight_time = 0.0;        ///< time from the start of the flight to the start of the segment
   Series x{}, y{}, phi{};          ///< positions

@@ -15,6 +15,13 @@ using Series = std::array<double, kMaxOrder + 3>;
 using Pair = Eigen::Array2d;
 using PairSeries = std::array<Pair, kMaxOrder + 3>;
 
+/// 1/k.
+inline constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
+  std::array<double, kMaxOrder + 4> inverse{};
+  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = 1.0 / static_cast<double>(k);
+  return inverse;
+}();
+
 /// Coefficient k of the product of a pair of series with a series. Two sums, so that additions do not wait for one
 /// another.
 inline Pair product_term(const PairSeries& a, const Series& b, int k) {

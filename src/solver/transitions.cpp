@@ -30,6 +30,9 @@ double speed_scale(const System& system, const Segment& segment) {
 /// A friction force this near to its limit, relative to it, is at the limit.
 constexpr double kAtLimit = 1e-2;
 
+/// A time in which nothing moves: what happens within it coincides.
+constexpr double kInstant = 1e-15;
+
 /// A base force this small, relative to that of its spring, is zero.
 constexpr double kPushRounding = 1e-9;
 
@@ -40,9 +43,9 @@ constexpr double kFastestRecovery = 1e12;
 double sliding_threshold(const System& system) { return kTanhSaturation * system.regularization; }
 
 /// Sets the law of friction of every loaded contact. `zero_slip` marks those whose V or stick an event has just brought
-/// to its end; `speed`: what V is small against.
+/// to its end, `slides` those that are decided already; `speed`: what V is small against.
 void set_friction(const System& system, const State& state, const DriveForms& drives, double speed,
-                  const SiteFlags& zero_slip, FrictionChoice& friction, ContactMode& mode) {
+                  const SiteFlags& zero_slip, const SiteFlags& slides, FrictionChoice& friction, ContactMode& mode) {
   SiteFlags at_rest{};
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     ContactState& contact = mode.contacts[i];
@@ -64,7 +67,10 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       }
       continue;
     }
-    at_rest[i] = zero_slip[i] || contact.slip == Slip::stick || std::abs(v) <= kZeroSlip * speed;
+    at_rest[i] = !slides[i] && (zero_slip[i] || contact.slip == Slip::stick || std::abs(v) <= kZeroSlip * speed);
+    // what slides in name only is at its limit
+    if (at_rest[i] && !zero_slip[i] && contact.slip == Slip::plus) mode.pins[i].hold_minus = 1;
+    if (at_rest[i] && !zero_slip[i] && contact.slip == Slip::minus) mode.pins[i].hold_plus = 1;
     if (!at_rest[i] && contact.slip == Slip::none) contact.slip = v > 0.0 ? Slip::plus : Slip::minus;
   }
   friction.decide(state, drives, at_rest, mode);
@@ -101,9 +107,9 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
                          const DriveForms& drives_at_end, FrictionChoice& friction, FoundEvents& events) {
   ContactMode mode = before;
   // what was zero at the start no longer is, unless no time has passed
-  if (segment.duration > 0.0) mode.pins = {};
+  if (segment.duration > kInstant) mode.pins = {};
   const State& state = segment.end;
-  SiteFlags zero_slip{};
+  SiteFlags zero_slip{}, slides{};
   for (int i = 0; i < events.count; ++i) {
     const Site site = events.events[i].site;
     const auto index = static_cast<std::size_t>(site);
@@ -160,12 +166,21 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
       case EventKind::slip_reversal: zero_slip[index] = true; break;
       case EventKind::slip:
         zero_slip[index] = true;
-        if (contact.slip == Slip::stick) pin_limit(system, segment, site, pins);
+        if (contact.slip != Slip::stick) break;
+        pin_limit(system, segment, site, pins);
+        if (segment.coarse && (pins.hold_plus > 0 || pins.hold_minus > 0)) {
+          // what N does at once, faster than the step, must not decide
+          contact.slip = pins.hold_plus > 0 ? Slip::minus : Slip::plus;
+          pins.slip = 2;
+          pins.hold_plus = pins.hold_minus = 0;
+          zero_slip[index] = false;
+          slides[index] = true;
+        }
         break;
       default: break;
     }
   }
-  set_friction(system, state, drives_at_end, speed_scale(system, segment), zero_slip, friction, mode);
+  set_friction(system, state, drives_at_end, speed_scale(system, segment), zero_slip, slides, friction, mode);
   for (int i = 0; i < events.count; ++i) {
     Event& event = events.events[i];
     if (event.kind == EventKind::slip_reversal &&
@@ -177,7 +192,7 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
 
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,
                           FrictionChoice& friction, ContactMode& mode) {
-  set_friction(system, segment.end, drives, speed_scale(system, segment), {}, friction, mode);
+  set_friction(system, segment.end, drives, speed_scale(system, segment), {}, {}, friction, mode);
 }
 
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives, FrictionChoice& friction) {
@@ -186,7 +201,7 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
   for (std::size_t i = 0; i < kSiteCount; ++i)
     if (system.recovery && mode.contacts[i].phase == Phase::unloaded)
       mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
-  set_friction(system, start, drives, speed_scale(system, start), {}, friction, mode);
+  set_friction(system, start, drives, speed_scale(system, start), {}, {}, friction, mode);
   return mode;
 }
 

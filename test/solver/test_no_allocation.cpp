@@ -87,6 +87,8 @@ class NoAllocation : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(scene, NoAllocation,
     testing::Values(Case{"slips_down", {}}, Case{"insertion", {"contacts=[edges, corners, walls]", "slot.depth=0.2"}},
                     Case{"regularised", {"friction.regularization=2.0e-3"}}, Case{"recovery", {"base.recovery=true"}},
+                    Case{"implicit", {"solver.name=implicit"}},
+                    Case{"auto", {"solver.name=auto", "gripper.pressing_force=3"}},
                     Case{"wedged", {"contacts=[edges, walls]", "slot={clearance: 0.02, depth: 0.4}", "gripper={anchor: {y: 0.3, phi: 0.2}, "
                                     "stiffness: {x: 0.5, phi: 7}}", "trial.time_limit=5"}},
                     Case{"all_waveforms", {"excitation=[{amplitude: 1, frequency: 20, waveform: square}, {amplitude: 0.3, frequency: 7, "

@@ -275,6 +275,52 @@ excitation:
 initial: {x: 0.006488487205224397, y: 0.17578889554881597, phi: 0, vx: 0, vy: 0, omega: 0}
 trial: {time_limit: 1.0e-6, aligned_depth: 0.0035157779109763194}
 )"},
+      {"load_that_falls_on_edge_and_corner_alike", R"(
+part: {half_width: 0.8069480981459578, base_distance: 1.0586082916904742}
+slot: {clearance: 0.012933878774816924, depth: 0.2044453149408007}
+gripper:
+  stiffness: {x: 1.6133204901066898}
+  damping: {x: 0.35649319816067432, y: 0.019211232249104256, phi: 0.0055610031033145116}
+  anchor: {x: 0, phi: 0, y: 0.65323244076197362}
+base: {stiffness: {x: 22145.674940431993, y: 22145.674940431993}, damping: {x: 46.123269101901073, y: 46.123269101901073}, recovery: true}
+contacts: [edges, corners, walls]
+friction: {coefficient: 0.49101468789274944}
+excitation:
+- {amplitude: 1, frequency: 3.4736765362814062, phase: 3.8567177969353725, direction: y, waveform: triangle}
+initial: {x: 0.48765112375640501, y: 1.181449712695172, phi: 0, vx: -0.26411840111027413, vy: -0.46020981699954633, omega: 0}
+trial: {time_limit: 3, aligned_depth: 0.10222265747040035}
+)"},
+      {"side_and_corner_reaching_the_wall_together", R"(
+part: {half_width: 0.69786645992807206, base_distance: 0.67049983079118058, inertia: 0.16558677673563171}
+slot: {clearance: 0.11658761141671874, depth: 0.27235950233421397}
+gripper:
+  stiffness: {x: 1.3428019326214733, phi: 7.9157171767869619}
+  damping: {x: 0.23173503787188557, y: 0.052324603627812084, phi: 0.017563619860660285}
+  anchor: {x: 0, phi: 0, y: -0.047896865747873052}
+base: {stiffness: {x: 2186.8755983355245, y: 1484.0735702072543}, damping: {x: 83.733820302378987, y: 56.824059739761388}, recovery: false}
+contacts: [edges, corners, walls]
+friction: {coefficient: 0.26531649824486325}
+excitation:
+- {amplitude: 1, frequency: 0.3155862079899982, phase: 1.8621596404396159, direction: y, waveform: chirp, end_frequency: 5.3871560734038457, sweep_time: 6.279508001203685}
+initial: {x: 0.50760944536392749, y: 0.81644861391102364, phi: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 2, aligned_depth: 0.13617975116710698}
+)"},
+      {"released_together_by_a_base_that_recovers", R"(
+part: {half_width: 0.54761516894282236, base_distance: 0.67551862970179544}
+slot: {clearance: 0.023075870775027086, depth: 0.19230127413889381}
+gripper:
+  stiffness: {x: 0.048815836662411537}
+  damping: {x: 0.00383244058107775, y: 0.075666105692706417, phi: 0.89300526246554801}
+  anchor: {x: 0.33644313331111442, phi: 0, y: -0.045231218534698026}
+base: {stiffness: {x: 2583.3246554905209, y: 7311.6668927435076}, damping: {x: 2.2969455163082038, y: 6.5011188006632485}, recovery: true}
+contacts: [edges, corners, walls]
+friction: {coefficient: 0.38744344991183949}
+weight: 0.056280641189146427
+excitation:
+- {amplitude: 1, frequency: 13.21649218641762, phase: 2.1120894915188173, direction: y, waveform: sine}
+initial: {x: 0.33644313331111442, y: 0.87593714385746457, phi: 0, vx: -0.054158110200216769, vy: -0.42706495036497466, omega: 0}
+trial: {time_limit: 2, aligned_depth: 0.096150637069446904}
+)"},
   };
   return all;
 }
@@ -285,6 +331,7 @@ class SeveralContacts : public testing::TestWithParam<Case> {
     Scene scene = test::scene_of(GetParam().text);
     scene.name = GetParam().name;
     scene.solver.tolerance = tolerance;
+    scene.solver.step_limit = 20000;
     return scene;
   }
 };

@@ -1,0 +1,95 @@
+#include "mechanics/forces.h"
+
+#include <cmath>
+
+#include "mechanics/mobility.h"
+
+namespace vibratory_alignment {
+namespace {
+
+double moment_of(const Vec2& lever, const Vec2& force) { return lever.x * force.y - lever.y * force.x; }
+
+/// Rounding of V' relative to its size: forces of contacts that hold the same motion are not resolved beyond.
+constexpr double kRounding = 1e-14;
+
+}  // namespace
+
+void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
+                     Forces& forces) {
+  double fx = drive.x - system.x.damping * state.vx - system.x.stiffness * (state.x - system.x.anchor);
+  double fy = drive.y - system.y.damping * state.vy - system.y.stiffness * (state.y - system.y.anchor) - system.weight;
+  double moment = drive.phi - system.phi.damping * state.omega - system.phi.stiffness * (state.phi - system.phi.anchor);
+  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  std::array<ContactKinematics, kSiteCount> kinematics;
+  std::array<int, kSiteCount> sticking{};
+  int sticking_count = 0;
+  forces.count = 0;
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const ContactState& contact = contacts[i];
+    if (contact.phase != Phase::loaded) continue;
+    const auto index = static_cast<std::size_t>(forces.count);
+    const ContactKinematics& k = kinematics[index] =
+        contact_kinematics(system, state, static_cast<Site>(i), contact.face);
+    ContactForce& force = forces.contact[index];
+    force.site = static_cast<Site>(i);
+    force.depth = k.depth;
+    force.slip_velocity = k.slip_velocity;
+    force.normal_force =
+        stiffness_of(system, contact.face, c, s) * k.depth + damping_of(system, contact.face, c, s) * k.depth_rate;
+    switch (contact.slip) {
+      case Slip::plus: force.tangential_force = -system.friction * force.normal_force; break;
+      case Slip::minus: force.tangential_force = system.friction * force.normal_force; break;
+      case Slip::regularized:
+        force.tangential_force =
+            -system.friction * force.normal_force * std::tanh(k.slip_velocity / system.regularization);
+        break;
+      case Slip::stick:
+        force.tangential_force = 0.0;
+        sticking[static_cast<std::size_t>(sticking_count++)] = forces.count;
+        break;
+      case Slip::none: force.tangential_force = 0.0; break;
+    }
+    const Vec2 total{force.normal_force * k.normal.x + force.tangential_force * k.tangent.x,
+                     force.normal_force * k.normal.y + force.tangential_force * k.tangent.y};
+    fx += total.x;
+    fy += total.y;
+    moment += moment_of(k.lever, total);
+    ++forces.count;
+  }
+  forces.ax = system.x.inverse_inertia * fx;
+  forces.ay = system.y.inverse_inertia * fy;
+  forces.alpha = system.phi.inverse_inertia * moment;
+  if (sticking_count == 0) return;
+
+  // T of what sticks takes out what is left of V'
+  Mobility::Matrix matrix{};
+  Mobility::Vector rhs{}, noise{};
+  std::array<double, kSiteCount> arm{};
+  for (int m = 0; m < sticking_count; ++m) {
+    const ContactKinematics& k = kinematics[static_cast<std::size_t>(sticking[m])];
+    arm[m] = moment_of(k.lever, k.tangent);
+    const double along_x = forces.ax * k.tangent.x, along_y = forces.ay * k.tangent.y, turning = forces.alpha * arm[m];
+    rhs[m] = -(along_x + along_y + turning + k.slip_rate);
+    noise[m] = kRounding * (std::abs(along_x) + std::abs(along_y) + std::abs(turning) + std::abs(k.slip_rate));
+  }
+  for (int m = 0; m < sticking_count; ++m)
+    for (int n = 0; n < sticking_count; ++n) {
+      const Vec2& a = kinematics[static_cast<std::size_t>(sticking[m])].tangent;
+      const Vec2& b = kinematics[static_cast<std::size_t>(sticking[n])].tangent;
+      matrix[m][n] = a.x * b.x * system.x.inverse_inertia + a.y * b.y * system.y.inverse_inertia +
+                     arm[m] * arm[n] * system.phi.inverse_inertia;
+    }
+  Mobility mobility;
+  mobility.set(matrix, sticking_count, typical_mobility(system));
+  const Mobility::Vector held = mobility.hold(rhs, noise);
+  for (int m = 0; m < sticking_count; ++m) {
+    const auto index = static_cast<std::size_t>(sticking[m]);
+    const Vec2& t = kinematics[index].tangent;
+    forces.contact[index].tangential_force = held[m];
+    forces.ax += held[m] * t.x * system.x.inverse_inertia;
+    forces.ay += held[m] * t.y * system.y.inverse_inertia;
+    forces.alpha += held[m] * arm[m] * system.phi.inverse_inertia;
+  }
+}
+
+}  // namespace vibratory_alignment

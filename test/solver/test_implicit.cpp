@@ -1,0 +1,116 @@
+// The solvers `implicit` and `auto`: the same answers as `event` and the reference integrator, at a cost that does not
+// depend on the stiffness of a base that the part stays in contact with.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/motion_check.h"
+#include "../support/reference_scene.h"
+#include "../support/runs.h"
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using reference::ReferenceCase;
+
+TrialResult run_with(Scene scene, const std::string& solver, double tolerance) {
+  scene.solver.name = solver;
+  scene.solver.tolerance = tolerance;
+  return test::run(scene, {}, scene.trial.time_limit);
+}
+
+class ImplicitOn : public testing::TestWithParam<ReferenceCase> {};
+INSTANTIATE_TEST_SUITE_P(known, ImplicitOn, testing::ValuesIn(reference::referenceCases()),
+                         [](const auto& info) { return info.param.name; });
+
+// A tolerance per step, amplified by the impacts after it.
+TEST_P(ImplicitOn, end_state_is_that_of_the_reference) {
+  const ReferenceCase& c = GetParam();
+  const double growth = std::max(1.0, static_cast<double>(c.amplification));
+  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+    const TrialResult result = run_with(test::scene_of_reference(c), "implicit", tolerance);
+    EXPECT_LT(test::distance(result.final_state, c.end), 10.0 * growth * tolerance) << tolerance;
+    for (std::size_t i = 0; i < kSpotCount; ++i) EXPECT_EQ(result.impacts[i], c.touches[i]) << "spot " << i;
+  }
+}
+
+TEST_P(ImplicitOn, automatic_choice_gives_the_same_answer) {
+  const ReferenceCase& c = GetParam();
+  const double growth = std::max(1.0, static_cast<double>(c.amplification));
+  const TrialResult result = run_with(test::scene_of_reference(c), "auto", 1e-8);
+  EXPECT_LT(test::distance(result.final_state, c.end), 10.0 * growth * 1e-8);
+}
+
+/// Pressed so hard that it never leaves the base, shaken across and along: sticks and slips twenty times.
+Scene pressed(double stiffness, double damping_ratio) {
+  Scene scene =
+      test::scene_of(test::plain, {"gripper.pressing_force=3", "friction.coefficient=0.2", "trial.time_limit=5"});
+  scene.initial.y.reset();
+  scene.initial.phi.reset();
+  scene.base.stiffness_x = scene.base.stiffness_y = stiffness;
+  scene.base.damping_x = scene.base.damping_y = 2.0 * damping_ratio * std::sqrt(stiffness);
+  return scene;
+}
+
+// Independent of k: what is left is a rigid base.
+TEST(Implicit, cost_of_lasting_contact_does_not_depend_on_the_stiffness) {
+  for (const double damping_ratio : {1.0, 10.0, 100.0}) {
+    long least = 0, most = 0;
+    for (const double stiffness : {1e4, 1e6, 1e8, 1e10}) {
+      const TrialResult result = run_with(pressed(stiffness, damping_ratio), "implicit", 1e-6);
+      ASSERT_EQ(result.outcome, Outcome::time_limit) << result.failure;
+      const long steps = result.counts.steps;
+      least = least == 0 ? steps : std::min(least, steps);
+      most = std::max(most, steps);
+    }
+    EXPECT_LE(most, 2 * least) << "damping ratio " << damping_ratio;
+  }
+}
+
+// The stiffer the base, the nearer to a rigid one: differences fall as 1/k.
+TEST(Implicit, a_stiff_base_tends_to_a_rigid_one) {
+  const State rigid = run_with(pressed(1e10, 1.0), "implicit", 1e-6).final_state;
+  const double at_1e6 = std::abs(run_with(pressed(1e6, 1.0), "implicit", 1e-8).final_state.x - rigid.x);
+  const double at_1e8 = std::abs(run_with(pressed(1e8, 1.0), "implicit", 1e-8).final_state.x - rigid.x);
+  EXPECT_NEAR(at_1e6 / at_1e8, 100.0, 30.0);
+}
+
+TEST(Implicit, agrees_with_the_series_on_a_stiff_base) {
+  for (const double damping_ratio : {0.3, 1.0, 3.0}) {
+    const Scene scene = pressed(1e6, damping_ratio);
+    const State series = run_with(scene, "event", 1e-10).final_state;
+    EXPECT_LT(test::distance(run_with(scene, "implicit", 1e-8).final_state, series), 1e-7) << damping_ratio;
+    EXPECT_LT(test::distance(run_with(scene, "auto", 1e-8).final_state, series), 1e-7) << damping_ratio;
+  }
+}
+
+// In the thin layer of regularised friction the part creeps: a stiff damper.
+TEST(Implicit, follows_the_creep_in_a_thin_layer_of_friction) {
+  Scene scene = pressed(1e4, 1.0);
+  long steps = 0;
+  for (const double eps : {1e-3, 1e-4}) {
+    scene.friction->regularization = eps;
+    const State series = run_with(scene, "event", 1e-10).final_state;
+    const TrialResult implicit = run_with(scene, "implicit", 1e-8);
+    EXPECT_LT(test::distance(implicit.final_state, series), 1e-6) << eps;
+    if (steps > 0) EXPECT_LT(implicit.counts.steps, 2 * steps) << eps;
+    steps = implicit.counts.steps;
+  }
+}
+
+TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
+  for (const double stiffness : {1e8, 1e10}) {
+    const Scene scene = pressed(stiffness, 10.0);
+    const long implicit = run_with(scene, "implicit", 1e-6).counts.steps;
+    EXPECT_LT(run_with(scene, "auto", 1e-6).counts.steps, 2 * implicit) << stiffness;
+  }
+  // impacts are over before an implicit step is thought of: the answer is that of the series to the bit
+  Scene bouncing = test::scene_of_reference(reference::referenceCases()[0]);
+  const State a = run_with(bouncing, "event", 1e-8).final_state, b = run_with(bouncing, "auto", 1e-8).final_state;
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.omega, b.omega);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
