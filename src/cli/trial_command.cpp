@@ -39,6 +39,7 @@ constexpr char kFooter[] = R"(Examples:
   align trial fig2 --csv run.csv --sample 0.01   motion and forces, every 0.01 and at every event
   align trial fig2 --set friction.coefficient=0.3 --set excitation.frequency=25
   align trial fig2 --until 5 --tolerance 1e-10   the motion until 5, more exactly
+  align trial fig2 --solver rk4 --step 1e-4      the same by another solver (docs/solvers.md)
 
 Units:
   Options, results and files are in the scene's own units. A scene with `units: si` has s, m, m/s, rad, N. Other
@@ -93,10 +94,15 @@ void drop_solver_key(YAML::Node& tree, const std::string& key) {
   if (tree.IsMap() && tree["solver"].IsMap() && tree["solver"][key]) apply_setting(tree, "solver." + key + "=null");
 }
 
+/// A key of the section `solver`; no node where it is not given.
+YAML::Node solver_key(const YAML::Node& tree, const char* key) {
+  const YAML::Node section = tree.IsMap() ? tree["solver"] : YAML::Node();
+  return section && section.IsMap() ? section[key] : YAML::Node();
+}
+
 /// The solver that the scene names; null when it names none that there is.
 const SolverName* solver_of(const YAML::Node& tree) {
-  const YAML::Node section = tree.IsMap() ? tree["solver"] : YAML::Node();
-  const YAML::Node name = section && section.IsMap() ? section["name"] : YAML::Node();
+  const YAML::Node name = solver_key(tree, "name");
   return find_solver(name && name.IsScalar() ? name.Scalar() : SolverSettings().name);
 }
 
@@ -116,6 +122,11 @@ Scene load(const TrialOptions& options, const std::string& file) {
   }
   if (solver && !solver->fixed_step && !options.step.empty()) {
     throw UsageError(std::string("--step: the solver ") + solver->name + " chooses its steps; give --tolerance");
+  }
+  const YAML::Node step = solver_key(tree, "step");
+  const bool has_step = !options.step.empty() || (step && !step.IsNull());
+  if (solver && solver->fixed_step && !options.solver.empty() && !has_step) {
+    throw UsageError(std::string("--solver: the solver ") + solver->name + " has a fixed step; give --step");
   }
   if (!options.tolerance.empty()) apply_setting(tree, "solver.tolerance=" + options.tolerance);
   if (!options.step.empty()) apply_setting(tree, "solver.step=" + options.step);

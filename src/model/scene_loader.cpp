@@ -325,8 +325,11 @@ void SceneReader::read_solver() {
     const char* unused = solver_name.fixed_step ? "tolerance" : "step";
     const char* used = solver_name.fixed_step ? "step" : "tolerance";
     const bool name_known = chosen || !solver.has("name");
-    if (name_known && settings.name == solver_name.name && solver.has(unused))
+    if (!name_known || settings.name != solver_name.name) continue;
+    if (solver.has(unused))
       solver.fault(unused, "solver " + settings.name + " does not use it; it has `" + used + "`");
+    else if (solver_name.fixed_step && !solver.has("step"))
+      solver.fault("step", "must be a number > 0, the time that each step of solver " + settings.name + " takes");
   }
   solver.refuse_unknown_keys();
 }

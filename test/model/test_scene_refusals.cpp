@@ -209,6 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"solver.step=0.1", "solver.step: 0.1", "does not use it"},
                       Mistake{"solver={name: rk4, tolerance: 0.1}", "solver.tolerance: 0.1", "does not use it"},
                       Mistake{"solver={name: rk4, step: 0}", "solver.step: 0", "> 0"},
+                      Mistake{"solver={name: ode}", "solver.step: missing", "each step of solver ode"},
                       Mistake{"solver.step_limit=1.5", "solver.step_limit: 1.5", "whole number"}));
 
 TEST(Refusals, DepthsNeedWalls) {

@@ -89,6 +89,9 @@ INSTANTIATE_TEST_SUITE_P(scene, NoAllocation,
                     Case{"regularised", {"friction.regularization=2.0e-3"}}, Case{"recovery", {"base.recovery=true"}},
                     Case{"implicit", {"solver.name=implicit"}},
                     Case{"auto", {"solver.name=auto", "gripper.pressing_force=3"}},
+                    Case{"rk4", {"solver={name: rk4, step: 1.0e-3}", "base.recovery=true"}},
+                    Case{"semi_implicit", {"solver={name: semi_implicit, step: 1.0e-3}"}},
+                    Case{"semi_implicit_in_the_slot", {"solver={name: semi_implicit, step: 1.0e-3}", "contacts=[edges, corners, walls]", "slot.depth=0.2"}},
                     Case{"wedged", {"contacts=[edges, walls]", "slot={clearance: 0.02, depth: 0.4}", "gripper={anchor: {y: 0.3, phi: 0.2}, "
                                     "stiffness: {x: 0.5, phi: 7}}", "trial.time_limit=5"}},
                     Case{"all_waveforms", {"excitation=[{amplitude: 1, frequency: 20, waveform: square}, {amplitude: 0.3, frequency: 7, "

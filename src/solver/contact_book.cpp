@@ -1,0 +1,208 @@
+#include "solver/contact_book.h"
+
+#include <cmath>
+
+namespace vibratory_alignment {
+namespace {
+
+/// A base deformation that is nothing (relative to lengths of order one).
+constexpr double kNoDeformation = 1e-18;
+
+bool on_wall(const ContactState& contact) {
+  return contact.touching() && (contact.face == Face::right_wall || contact.face == Face::left_wall);
+}
+
+/// A corner reaches the floor only inside the slot, or while it presses into a wall.
+bool over_floor(const System& system, const ContactBook& book, Site site, const Vec2& point) {
+  const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
+  return on_wall(book.contacts[static_cast<std::size_t>(corner)]) || std::abs(point.x) <= system.slot_half_width;
+}
+
+double deformation_after(const Recovery& recovery, double elapsed) {
+  return recovery.deformation > 0.0 ? recovery.deformation * std::exp(-recovery.rate * elapsed) : 0.0;
+}
+
+/// A condition of a region, at a point, with the surface of a base that has been left not back yet.
+double above(const RegionCondition& condition, const Vec2& point, const Recovery& recovery, double elapsed) {
+  const double value = condition.value(point);
+  return recovery.face == condition.face ? value - deformation_after(recovery, elapsed) : value;
+}
+
+/// The face that a point has crossed to come in: of the condition that became true last, or, where all of them held
+/// before, of the one that is nearest.
+Face crossed_face(const Region& region, const Vec2& from, const Vec2& to, const Recovery& recovery, double elapsed) {
+  double last = -1.0, least = INFINITY;
+  Face crossed = Face::none, nearest = Face::none;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(region.count); ++j) {
+    const RegionCondition& condition = region.conditions[j];
+    const double now = above(condition, to, recovery, elapsed), before = above(condition, from, recovery, 0.0);
+    const double when = before <= 0.0 ? before / (before - now) : -1.0;
+    if (when > last) {
+      last = when;
+      crossed = condition.face;
+    }
+    if (now < least) {
+      least = now;
+      nearest = condition.face;
+    }
+  }
+  return crossed == Face::none ? nearest : crossed;
+}
+
+SiteFate fate_outside(const System& system, const SiteTable& table, const ContactBook& book, Site site,
+                      const Vec2& point, double elapsed) {
+  const auto index = static_cast<std::size_t>(site);
+  const Recovery& recovery = book.recoveries[index];
+  for (std::size_t half = 0; half < static_cast<std::size_t>(region_count(site)); ++half) {
+    const Region& region = table.regions[index][half];
+    bool inside = true;
+    for (std::size_t j = 0; inside && j < static_cast<std::size_t>(region.count); ++j)
+      inside = above(region.conditions[j], point, recovery, elapsed) > 0.0;
+    if (!inside) continue;
+    const Face face = crossed_face(region, book.points[index], point, recovery, elapsed);
+    const bool touches = is_called_for(system, face) && (face != Face::floor || over_floor(system, book, site, point));
+    return touches ? SiteFate{Phase::loaded, face, true, EventKind::touch, face}
+                   : SiteFate{Phase::free, Face::none, true, EventKind::enter, face};
+  }
+  return {};
+}
+
+SiteFate fate_touching(const System& system, Face face, const Vec2& point) {
+  if (!(contact_frame(system, face).depth(point.x, point.y) > 0.0))
+    return {Phase::outside, Face::none, true, EventKind::close, face};
+  const Region limits = face_limits(system, face, point);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(limits.count); ++j)
+    if (limits.conditions[j].value(point) < 0.0)
+      return {Phase::outside, Face::none, true, EventKind::run_off, limits.conditions[j].face};
+  return {Phase::loaded, face, false, EventKind::touch, Face::none};
+}
+
+SiteFate fate_free(const SiteTable& table, Site site, const Vec2& point) {
+  const Region& region =
+      table.regions[static_cast<std::size_t>(site)][region_count(site) == 2 && point.x < 0.0 ? 1 : 0];
+  for (std::size_t j = 0; j < static_cast<std::size_t>(region.count); ++j)
+    if (!(region.conditions[j].value(point) > 0.0))
+      return {Phase::outside, Face::none, true, EventKind::leave, region.conditions[j].face};
+  return {Phase::free, Face::none, false, EventKind::touch, Face::none};
+}
+
+/// The base is left: what it keeps of its deformation.
+Recovery left_base(const System& system, const ContactPoint& contact, Face face) {
+  if (!system.recovery || contact.damping == 0.0 || !(contact.depth > 0.0)) return {};
+  return {contact.depth, contact.stiffness / contact.damping, face};
+}
+
+/// One site at the end of a step; its point and recovery are known.
+void follow_site(const System& system, const ContactState& before, Site site, const SiteFate& fate, ContactBook& book,
+                 Segment& segment) {
+  const auto index = static_cast<std::size_t>(site);
+  ContactState& contact = book.contacts[index];
+  Recovery& recovery = book.recoveries[index];
+  contact = {};
+  if (fate.phase != Phase::loaded) {
+    contact.phase = fate.phase;
+    if (!fate.changed) return;
+    const bool closes_loaded = before.phase == Phase::loaded && fate.event == EventKind::close;
+    if (closes_loaded) add_event(segment, EventKind::release, site);
+    // a contact without base damping is released and closed in one
+    const bool undamped =
+        closes_loaded && damping_of(system, before.face, book.placed.cos_phi, book.placed.sin_phi) == 0.0;
+    if (!undamped) add_event(segment, fate.event, site, fate.event_face);
+    if (fate.event == EventKind::run_off) recovery = {};
+    return;
+  }
+  contact.face = fate.face;
+  ContactPoint& point = book.touching[index];
+  point = contact_point(system, book.placed, site, fate.face, book.points[index]);
+  bool pushes = point.push() > 0.0;
+  if (!fate.changed && before.phase == Phase::unloaded && recovery.deformation > 0.0) {
+    // left by the part: it pushes again when the part has caught up, and is left anew if the normal has turned since
+    const bool caught = point.depth >= recovery.deformation;
+    if (caught) recovery = pushes ? Recovery{} : left_base(system, point, fate.face);
+    pushes = pushes && caught;
+  } else {
+    recovery = pushes ? Recovery{} : left_base(system, point, fate.face);
+  }
+  contact.phase = pushes ? Phase::loaded : Phase::unloaded;
+  const bool was_loaded = before.phase == Phase::loaded;
+  if (fate.changed)
+    add_event(segment, EventKind::touch, site, fate.face);
+  else if (was_loaded != pushes)
+    add_event(segment, pushes ? EventKind::reload : EventKind::release, site);
+  if (was_loaded && pushes) contact.slip = before.slip;
+}
+
+}  // namespace
+
+SiteTable::SiteTable(const System& system) {
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const auto site = static_cast<Site>(i);
+    if (!site_in_use(system, site)) continue;
+    sites[static_cast<std::size_t>(count++)] = site;
+    for (int half = 0; half < region_count(site); ++half)
+      regions[i][static_cast<std::size_t>(half)] = site_region(system, site, half);
+  }
+}
+
+SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook& book, Site site, const Vec2& point,
+                 double elapsed) {
+  const ContactState& contact = book.contacts[static_cast<std::size_t>(site)];
+  switch (contact.phase) {
+    case Phase::outside: return fate_outside(system, table, book, site, point, elapsed);
+    case Phase::free: return fate_free(table, site, point);
+    default: return fate_touching(system, contact.face, point);
+  }
+}
+
+ContactBook open_book(const System& system, const SiteTable& table, const State& start) {
+  ContactBook book(start);
+  place_contacts(system, start, book.contacts);
+  for (int n = 0; n < table.count; ++n) {
+    const Site site = table.sites[static_cast<std::size_t>(n)];
+    const auto i = static_cast<std::size_t>(site);
+    const ContactState& contact = book.contacts[i];
+    book.points[i] = site_point(system, book.placed, site);
+    if (!contact.touching()) continue;
+    book.touching[i] = contact_point(system, book.placed, site, contact.face, book.points[i]);
+    if (contact.phase == Phase::unloaded) book.recoveries[i] = left_base(system, book.touching[i], contact.face);
+  }
+  return book;
+}
+
+void follow(const System& system, const SiteTable& table, const ContactBook& before, Segment& segment,
+            ContactBook& after) {
+  after.placed = PlacedState(segment.end);
+  for (int n = 0; n < table.count; ++n) {
+    const Site site = table.sites[static_cast<std::size_t>(n)];
+    const auto i = static_cast<std::size_t>(site);
+    after.points[i] = site_point(system, after.placed, site);
+    Recovery& recovery = after.recoveries[i];
+    recovery = before.recoveries[i];
+    recovery.deformation = deformation_after(recovery, segment.duration);
+    if (recovery.deformation < kNoDeformation) recovery = {};
+    const SiteFate fate = fate_of(system, table, before, site, after.points[i], segment.duration);
+    follow_site(system, before.contacts[i], site, fate, after, segment);
+  }
+}
+
+bool may_push(const System& system, const ContactBook& book, Site site) {
+  const auto index = static_cast<std::size_t>(site);
+  const ContactState& contact = book.contacts[index];
+  if (contact.phase == Phase::unloaded) return !(system.recovery && book.recoveries[index].deformation > 0.0);
+  return contact.phase == Phase::loaded;
+}
+
+bool is_below(const System& system, const ContactBook& book, double depth, bool between_walls) {
+  // the mean of both corners is at y - b cos phi
+  if (book.placed.state.y - system.base_distance * book.placed.cos_phi > -depth) return false;
+  for (const Site corner : {Site::b1, Site::b2}) {
+    const Vec2 point = site_point(system, book.placed, corner);
+    if (!(-point.y - depth > 0.0)) return false;
+    const bool between =
+        on_wall(book.contacts[static_cast<std::size_t>(corner)]) || std::abs(point.x) < system.slot_half_width;
+    if (between_walls && !between) return false;
+  }
+  return true;
+}
+
+}  // namespace vibratory_alignment

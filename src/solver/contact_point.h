@@ -1,0 +1,40 @@
+// A contact at one state, as contact_kinematics() gives it, but from cos and sin of the tilt that all contacts of the
+// state share: the solvers with a fixed step evaluate many states.
+#pragma once
+
+#include <cmath>
+
+#include "mechanics/contact_frame.h"
+
+namespace vibratory_alignment {
+
+/// A state with the direction of its body axis e1 = (cos phi, sin phi).
+struct PlacedState {
+  explicit PlacedState(const State& s) : state(s), cos_phi(std::cos(s.phi)), sin_phi(std::sin(s.phi)) {}
+
+  State state;
+  double cos_phi, sin_phi;
+};
+
+struct ContactPoint {
+  Vec2 normal, tangent, lever;  ///< n, t, and r = contact point - C, in world axes
+  double depth = 0.0;           ///< d
+  double depth_rate = 0.0;      ///< d'
+  double slip_velocity = 0.0;   ///< V
+  double stiffness = 0.0;       ///< k(n)
+  double damping = 0.0;         ///< h(n)
+
+  /// k d + h d', which is N where it is positive.
+  double push() const { return stiffness * depth + damping * depth_rate; }
+  /// Levers of N and T about the mass centre.
+  double normal_lever() const { return lever.x * normal.y - lever.y * normal.x; }
+  double tangent_lever() const { return lever.x * tangent.y - lever.y * tangent.x; }
+};
+
+/// Body coordinates (u, w) of an edge, or position B of a corner.
+Vec2 site_point(const System& system, const PlacedState& placed, Site site);
+
+/// The contact of `site`, whose point is at `point`, with `face`.
+ContactPoint contact_point(const System& system, const PlacedState& placed, Site site, Face face, const Vec2& point);
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,168 @@
+#include "solver/fixed_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace vibratory_alignment {
+namespace {
+
+/// A rest of a step this small, relative to the step, is joined to a neighbour.
+constexpr double kSliver = 1e-6;
+
+bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
+
+}  // namespace
+
+FixedStepSolver::FixedStepSolver(const System& system, const std::vector<Excitation>& excitations,
+                                 std::unique_ptr<StepMethod> method, double step, long step_limit)
+    : system_(system),
+      method_(std::move(method)),
+      step_(step),
+      step_limit_(step_limit),
+      sites_(system_),
+      planned_(step),
+      books_{open_book(system_, sites_, system.start), ContactBook(system.start)},
+      drives_(excitations, now_),
+      awaits_inserted_(system.has_inserted_depth) {}
+
+void FixedStepSolver::fail(const std::string& reason) const {
+  std::ostringstream message;
+  message << reason << " at time " << now_.value() << " (dimensionless), x = " << state().x << ", y = " << state().y
+          << ", phi = " << state().phi;
+  throw SolverFailure(message.str());
+}
+
+void FixedStepSolver::pass_drives() {
+  if (!drives_passed_) drives_.pass(segment_.duration);
+  drives_passed_ = true;
+}
+
+void FixedStepSolver::go_to_end() {
+  pass_drives();
+  drives_passed_ = false;
+  now_ = segment_.start + segment_.duration;
+  book_ = 1 - book_;
+  // what is left of the step, so that the steps stay on their grid
+  const double left = planned_ - segment_.duration;
+  planned_ = left > kSliver * step_ ? left : step_ + left;
+  counts_.events += segment_.event_count;
+  for (int i = 0; i < segment_.event_count; ++i) {
+    const EventKind kind = segment_.events[static_cast<std::size_t>(i)].kind;
+    if (kind == EventKind::aligned) awaits_aligned_ = false;
+    if (kind == EventKind::inserted) awaits_inserted_ = false;
+  }
+}
+
+const Segment& FixedStepSolver::advance(double limit) {
+  if (started_) go_to_end();
+  started_ = true;
+  if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
+
+  const double to_limit = std::max(0.0, limit - now_);
+  double duration = planned_;
+  if (to_limit <= (1.0 + kSliver) * duration) duration = to_limit;
+
+  segment_.start = now_;
+  segment_.begin = state();
+  segment_.duration = duration;
+  segment_.flight = nullptr;
+  segment_.loaded_count = 0;
+  segment_.contacts = book().contacts;
+  for (std::size_t i = 0; system_.recovery && i < kSiteCount; ++i) {
+    segment_.contacts[i].base_deformation = book().recoveries[i].deformation;
+    segment_.contacts[i].recovery_rate = book().recoveries[i].rate;
+  }
+  drives_.begin_step(now_);
+  if (duration > 0.0) {
+    counts_.rhs_evaluations += method_->step({system_, sites_, book(), drives_, duration}, segment_, slip_at_end_);
+    if (!is_finite(segment_.end)) fail("the motion is no longer finite");
+  } else {
+    rest();
+  }
+  book_end(true);
+  set_direction();
+  return segment_;
+}
+
+/// A segment without length.
+void FixedStepSolver::rest() {
+  segment_.end = state();
+  segment_.order = 0;
+  const State& s = state();
+  const Load3 drive = drives_.at(0.0);
+  segment_.x[0] = s.x;
+  segment_.y[0] = s.y;
+  segment_.phi[0] = s.phi;
+  segment_.vx[0] = s.vx;
+  segment_.vy[0] = s.vy;
+  segment_.omega[0] = s.omega;
+  segment_.drive_x[0] = drive.x;
+  segment_.drive_y[0] = drive.y;
+  segment_.drive_phi[0] = drive.phi;
+}
+
+/// cos and sin of the tilt, as far as the order of the segment goes.
+void FixedStepSolver::set_direction() {
+  const PlacedState &begin = book().placed, &end = end_book().placed;
+  const double h = segment_.duration;
+  const int order = segment_.order;
+  set_constant(segment_.cos_phi, order, begin.cos_phi);
+  set_constant(segment_.sin_phi, order, begin.sin_phi);
+  if (order >= 3) {
+    const double w0 = begin.state.omega, w1 = end.state.omega;
+    set_cubic(segment_.cos_phi, order, begin.cos_phi, -w0 * begin.sin_phi, end.cos_phi, -w1 * end.sin_phi, h);
+    set_cubic(segment_.sin_phi, order, begin.sin_phi, w0 * begin.cos_phi, end.sin_phi, w1 * end.cos_phi, h);
+  } else if (order >= 1) {
+    set_line(segment_.cos_phi, order, begin.cos_phi, end.cos_phi, h);
+    set_line(segment_.sin_phi, order, begin.sin_phi, end.sin_phi, h);
+  }
+}
+
+/// Slip of a loaded contact at the segment's end. Where the segment has been cut the method has not decided it, and a
+/// contact sticks there that does so at both ends.
+Slip FixedStepSolver::slip_at(std::size_t site, bool whole) {
+  if (system_.friction == 0.0) return Slip::none;
+  const bool was_loaded = segment_.contacts[site].phase == Phase::loaded;
+  const Slip before = segment_.contacts[site].slip, decided = slip_at_end_[site];
+  if (was_loaded && (whole || before == decided)) return decided;
+  return end_book().touching[site].slip_velocity > 0.0 ? Slip::plus : Slip::minus;
+}
+
+void FixedStepSolver::book_end(bool whole) {
+  segment_.event_count = 0;
+  ContactBook& end = end_book();
+  follow(system_, sites_, book(), segment_, end);
+  for (int n = 0; n < sites_.count; ++n) {
+    const Site site = sites_.sites[static_cast<std::size_t>(n)];
+    const auto i = static_cast<std::size_t>(site);
+    ContactState& contact = end.contacts[i];
+    if (contact.phase != Phase::loaded) continue;
+    contact.slip = slip_at(i, whole);
+    if (book().contacts[i].phase != Phase::loaded || system_.friction == 0.0) continue;
+    const bool sticks = contact.slip == Slip::stick, stuck = segment_.contacts[i].slip == Slip::stick;
+    const bool reversed = book().touching[i].slip_velocity * end.touching[i].slip_velocity < 0.0;
+    if (sticks != stuck)
+      add_event(segment_, sticks ? EventKind::stick : EventKind::slip, site);
+    else if (!sticks && reversed)
+      add_event(segment_, EventKind::slip_reversal, site);
+  }
+  if (drives_.has_kink(segment_.duration)) add_event(segment_, EventKind::drive_kink, Site::a1);
+  if (awaits_aligned_ && is_below(system_, end, system_.aligned_depth, true))
+    add_event(segment_, EventKind::aligned, Site::b1);
+  if (awaits_inserted_ && is_below(system_, end, system_.inserted_depth, false))
+    add_event(segment_, EventKind::inserted, Site::b1);
+}
+
+void FixedStepSolver::cut(double duration) {
+  segment_.end = duration > 0.0 ? state_at(segment_, duration) : segment_.begin;
+  segment_.duration = duration;
+  book_end(false);
+}
+
+void FixedStepSolver::set_excitations(const std::vector<Excitation>& excitations) {
+  if (started_) pass_drives();
+  drives_.change(excitations, started_ ? segment_.start + segment_.duration : now_);
+}
+
+}  // namespace vibratory_alignment
