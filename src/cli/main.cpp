@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/accuracy_command.h"
 #include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/trial_command.h"
@@ -16,6 +17,7 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr Command kCommands[] = {
+    {"accuracy", "Show what accuracy costs in time: every solver on one scene", set_up_accuracy},
     {"trial", "Run one trial of a scene, without ROS, as fast as it goes", set_up_trial},
 };
 

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Work-precision figure from the table of `align accuracy --csv`: CPU time over error, one line per solver."""
+
+import argparse
+import csv
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+# Marks as well as colours tell the lines apart, also in grey and for those who see colours otherwise (Okabe and Ito).
+STYLES = {
+    "event": ("#0072B2", "o"),
+    "auto": ("#56B4E9", "s"),
+    "implicit": ("#009E73", "^"),
+    "semi_implicit": ("#E69F00", "v"),
+    "rk4": ("#D55E00", "D"),
+    "ode": ("#CC79A7", "X"),
+}
+
+
+def read_lines(path):
+    """Maps solver to its (error, microseconds), coarse to fine; and the error below which nothing is told."""
+    lines, floor = {}, 0.0
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            floor = float(row["reference_agreement"])
+            if not row["pose_error"]:
+                continue
+            point = (max(float(row["pose_error"]), 1e-17), 1e6 * float(row["cpu_seconds"]))
+            lines.setdefault(row["solver"], []).append(point)
+    return lines, floor
+
+
+def draw(lines, floor, title, target):
+    figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
+    for solver, points in lines.items():
+        colour, mark = STYLES.get(solver, ("#000000", "."))
+        axes.loglog(*zip(*points), color=colour, marker=mark, markersize=4.5, linewidth=1.2, label=solver)
+    if floor > 0.0:
+        axes.axvspan(axes.get_xlim()[0], floor, color="0.93", zorder=0)
+    axes.invert_xaxis()
+    axes.set_xlabel("error of the pose at the end (dimensionless)")
+    axes.set_ylabel("CPU time of a trial [µs]")
+    axes.set_title(title)
+    axes.grid(True, which="major", color="0.88", linewidth=0.6)
+    axes.legend(frameon=False)
+    figure.savefig(target, dpi=160, format="png")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("table", help="CSV file of `align accuracy`")
+    parser.add_argument("picture", help="PNG file to write")
+    parser.add_argument("--title", default="", help="title of the figure")
+    arguments = parser.parse_args()
+    lines, floor = read_lines(arguments.table)
+    if not lines:
+        sys.exit(arguments.table + ": holds no run")
+    draw(lines, floor, arguments.title, arguments.picture)
+
+
+if __name__ == "__main__":
+    main()

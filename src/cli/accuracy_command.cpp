@@ -1,0 +1,198 @@
+#include "cli/accuracy_command.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/errors.h"
+#include "cli/interrupt.h"
+#include "cli/output_path.h"
+#include "cli/scene_path.h"
+#include "model/scene_loader.h"
+#include "model/solver_names.h"
+#include "study/accuracy.h"
+
+extern char** environ;
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr char kFooter[] = R"(Examples:
+  align accuracy r1                                  every solver of this build on the scene r1
+  align accuracy r1 --solvers event,implicit         only these
+  align accuracy my_scene.yaml --csv a.csv --plot a.png
+
+The reference is the trial by `event` at tolerance 1e-13, checked by `implicit` at 1e-11; errors below their difference
+say nothing. Every run ends where the reference ended. Pose error: the largest difference of x, y and phi there,
+dimensionless. Time: CPU time of one trial, median of repetitions in this process; compare times of one run only.
+Exit status: 0 it ran; 1 it failed while running; 2 bad usage or bad scene.)";
+
+struct Options {
+  std::string scene, csv, plot;
+  std::vector<std::string> solvers, settings;
+};
+
+std::string check_solver(const std::string& name) {
+  std::string list;
+  for (const SolverName& solver : solver_names) {
+    if (name == solver.name) return {};
+    list += (list.empty() ? "" : ", ") + std::string(solver.name);
+  }
+  return name + " is not a solver; the solvers are " + list;
+}
+
+std::string format(const char* pattern, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+void print_heading() {
+  std::printf("%-14s %9s %10s %10s %10s %11s %10s %9s %8s %10s\n", "solver", "setting", "pose", "force", "duration",
+              "time [us]", "rhs", "steps", "events", "residual");
+}
+
+void print_row(const AccuracyRun& run) {
+  if (!run.failure.empty()) {
+    std::printf("%-14s %9.1e %s\n", run.solver.c_str(), run.setting, run.failure.c_str());
+    return;
+  }
+  std::printf("%-14s %9.1e %10.1e %10.1e %10s %11.1f %10ld %9ld %8ld %10.1e\n", run.solver.c_str(), run.setting,
+              run.pose_error, run.force_error, run.duration_error ? format("%.1e", *run.duration_error).c_str() : "-",
+              1e6 * run.cpu_seconds, run.counts.rhs_evaluations, run.counts.steps, run.counts.events,
+              run.energy_residual);
+}
+
+/// Throws OutputError.
+void write_csv(const std::string& path, const std::string& name, const std::vector<AccuracyRun>& runs,
+               const AccuracyReference& reference) {
+  std::ofstream file(path);
+  file.precision(17);
+  file << "solver,kind,setting,pose_error,force_error,duration_error,cpu_seconds,repetitions,rhs_evaluations,steps,"
+          "rejected,events,energy_residual,reference_agreement,failure\n";
+  for (const AccuracyRun& run : runs) {
+    file << run.solver << ',' << (run.fixed_step ? "step" : "tolerance") << ',' << run.setting << ',';
+    if (run.failure.empty()) {
+      file << run.pose_error << ',' << run.force_error << ',';
+      if (run.duration_error) file << *run.duration_error;
+      file << ',' << run.cpu_seconds << ',' << run.repetitions << ',' << run.counts.rhs_evaluations << ','
+           << run.counts.steps << ',' << run.counts.rejected << ',' << run.counts.events << ',' << run.energy_residual
+           << ',' << reference.agreement << ",\n";
+    } else {
+      file << ",,,,,,,,,," << reference.agreement << ",\"" << run.failure << "\"\n";
+    }
+  }
+  file.close();
+  if (!file) throw OutputError(name, std::strerror(errno));
+}
+
+/// Draws the CSV file with the script beside this program. Throws std::runtime_error.
+void draw(const std::string& csv, const std::string& picture, const std::string& title) {
+  const std::filesystem::path script =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_accuracy.py";
+  if (!std::filesystem::exists(script))
+    throw std::runtime_error("--plot: " + script.string() + " is missing; is the package installed whole?");
+  std::vector<std::string> words = {script.string(), csv, picture, "--title", title};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, script.c_str(), nullptr, nullptr, arguments.data(), environ);
+  if (error != 0) throw std::runtime_error("--plot: " + script.string() + ": " + std::strerror(error));
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error("--plot: " + script.string() + " failed; it needs python3-matplotlib");
+}
+
+/// One sentence for each of a few errors.
+void print_advice(const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
+  std::printf("\n");
+  for (const double error : {1e-3, 1e-6, 1e-9}) {
+    if (error < reference.agreement) continue;
+    const AccuracyRun* run = cheapest_for(runs, error);
+    if (run == nullptr) {
+      std::printf("For an error of %.0e: none of these keeps it.\n", error);
+      continue;
+    }
+    std::printf("For an error of %.0e use %s with a %s of %.1e: it costs %.0f us.\n", error, run->solver.c_str(),
+                run->fixed_step ? "step" : "tolerance", run->setting, 1e6 * run->cpu_seconds);
+  }
+}
+
+int run_accuracy(const Options& options) {
+  const std::string file = find_scene(options.scene);
+  YAML::Node tree = read_scene_file(file);
+  for (const std::string& setting : options.settings) apply_setting(tree, setting);
+  const Scene scene = load_scene(tree, file);
+  std::unique_ptr<OutputPath> csv, picture;
+  if (!options.csv.empty()) csv = std::make_unique<OutputPath>("--csv", options.csv);
+  if (!options.plot.empty()) picture = std::make_unique<OutputPath>("--plot", options.plot);
+
+  const AccuracyReference reference = accuracy_reference(scene);
+  std::printf("%s to %.6g (dimensionless); reference %s, %s differs by %.1e\n\n", scene.name.c_str(),
+              reference.end_time, reference.method.c_str(), reference.second_method.c_str(), reference.agreement);
+  print_heading();
+  AccuracyOptions study;
+  study.solvers = options.solvers;
+  const InterruptGuard interrupt;
+  std::vector<AccuracyRun> runs;
+  try {
+    runs = run_accuracy_study(scene, reference, study, [&](const AccuracyRun& run) {
+      print_row(run);
+      std::fflush(stdout);
+      return interrupt.signal() == 0;
+    });
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  if (interrupt.signal() != 0) {
+    std::fprintf(stderr, "align: interrupted; no file is written\n");
+    return 128 + interrupt.signal();
+  }
+  print_advice(runs, reference);
+  std::fflush(stdout);
+  if (csv) {
+    write_csv(csv->temporary(), csv->path(), runs, reference);
+    csv->commit();
+  }
+  if (picture) {
+    const std::string table = picture->temporary() + ".csv";
+    write_csv(table, table, runs, reference);
+    draw(table, picture->temporary(), scene.name);
+    std::filesystem::remove(table);
+    picture->commit();
+  }
+  return kExitRan;
+}
+
+}  // namespace
+
+std::function<int()> set_up_accuracy(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.footer(kFooter);
+  app.add_option("SCENE", options->scene,
+                 "Scene file (YAML), or the name of a scene that comes with\nthe package, like r1")
+      ->required();
+  app.add_option("--solvers", options->solvers, "Solvers to try, as in event,implicit. Default: all of this build")
+      ->delimiter(',')
+      ->check(CLI::Validator(check_solver, ""))
+      ->type_name("NAME,...");
+  app.add_option("--set", options->settings, "Give a key of the scene another value; can be repeated")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--csv", options->csv, "Write the table to this file")->type_name("FILE");
+  app.add_option("--plot", options->plot, "Draw error against time, one line per solver")->type_name("FILE.png");
+  return [options] { return run_accuracy(*options); };
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,59 @@
+// What accuracy costs: a trial by every solver over tolerances or steps, against a converged reference.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/scene.h"
+#include "trial/outcome.h"
+
+namespace vibratory_alignment {
+
+/// The converged answer: the end state of the trial, its peak forces and its alignment duration. Dimensionless.
+struct AccuracyReference {
+  double end_time = 0.0;  ///< every run of the study ends here
+  State end;
+  std::array<double, kSpotCount> peak_force{};
+  std::optional<double> aligned_time;
+  /// Difference of the pose from that of a second method; errors below it say nothing.
+  double agreement = 0.0;
+  std::string method, second_method;
+};
+
+/// One run of one solver.
+struct AccuracyRun {
+  std::string solver;
+  double setting = 0.0;  ///< tolerance, or step of a fixed-step solver
+  bool fixed_step = false;
+  std::string failure;       ///< not empty: it failed, or ended otherwise than the reference
+  double pose_error = 0.0;   ///< largest difference of x, y, phi at the end
+  double force_error = 0.0;  ///< largest difference of a peak force, relative to the largest peak force
+  std::optional<double> duration_error;
+  double cpu_seconds = 0.0;  ///< of one trial: median of the repetitions
+  int repetitions = 0;
+  SolverCounts counts;
+  double energy_residual = 0.0;
+};
+
+struct AccuracyOptions {
+  std::vector<std::string> solvers;  ///< names; empty: all that this build has
+  double seconds_per_run = 0.2;      ///< CPU time that the repetitions of a run may take, at least one of them
+  double longest_run = 10.0;         ///< a solver's finer settings are left out after a run longer than this, in s
+  double step_share = 1e-2;          ///< the coarsest fixed step, in periods of the fastest excitation
+};
+
+/// The reference of a scene: `event` at tolerance 1e-13, checked by `implicit` at 1e-11. Throws SceneError,
+/// std::runtime_error when the trial fails.
+AccuracyReference accuracy_reference(const Scene& scene);
+
+/// All runs, solver by solver, coarse to fine; `progress` is told each as it is done and may return false to stop.
+std::vector<AccuracyRun> run_accuracy_study(const Scene& scene, const AccuracyReference& reference,
+                                            const AccuracyOptions& options,
+                                            const std::function<bool(const AccuracyRun&)>& progress);
+
+/// The fastest run whose error, and that of all finer runs of its solver, is at most `error`; null when there is none.
+const AccuracyRun* cheapest_for(const std::vector<AccuracyRun>& runs, double error);
+
+}  // namespace vibratory_alignment
