@@ -30,7 +30,10 @@ ContactFrame contact_frame(const System& system, Face face) {
 }
 
 Vec2 site_point(const System& system, const State& state, Site site) {
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  return site_point(system, state, site, std::cos(state.phi), std::sin(state.phi));
+}
+
+Vec2 site_point(const System& system, const State& state, Site site, double c, double s) {
   if (is_edge(site)) {
     const double rx = side_of(site) * system.slot_half_width - state.x, ry = -state.y;
     return {rx * c + ry * s, ry * c - rx * s};
@@ -49,8 +52,8 @@ double damping_of(const System& system, Face face, double cos_phi, double sin_ph
 
 ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face) {
   const ContactFrame frame = contact_frame(system, face);
-  const Vec2 p = site_point(system, state, site);
   const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const Vec2 p = site_point(system, state, site, c, s);
   ContactKinematics k;
   k.depth = frame.depth(p.x, p.y);
   if (is_part_face(face)) {

@@ -47,6 +47,9 @@ ContactFrame contact_frame(const System& system, Face face);
 /// Body coordinates (u, w) of an edge, or position B of a corner.
 Vec2 site_point(const System& system, const State& state, Site site);
 
+/// The same with cos and sin of the state's tilt known.
+Vec2 site_point(const System& system, const State& state, Site site, double cos_phi, double sin_phi);
+
 /// Base stiffness k(n) and damping h(n) seen by `face` at tilt phi.
 double stiffness_of(const System& system, Face face, double cos_phi, double sin_phi);
 double damping_of(const System& system, Face face, double cos_phi, double sin_phi);

@@ -88,10 +88,10 @@ void FreeMotion::add_particular(double t, double& q, double& v) const {
 /// C - 1 and S: S solves the free equation with S(0) = 0, S'(0) = 1; C = S' + 2a S has C(0) = 1, C'(0) = 0.
 void FreeMotion::homogeneous(double t, double& c_change, double& s) const {
   if (square_ < 0.0) {
-    const double envelope = std::exp(-decay_ * t);
+    const double fall = std::expm1(-decay_ * t), envelope = 1.0 + fall;
     const double half_s = std::sin(0.5 * root_ * t), half_c = std::cos(0.5 * root_ * t);
     s = envelope * 2.0 * half_s * half_c / root_;
-    c_change = -2.0 * envelope * half_s * half_s + std::expm1(-decay_ * t) + decay_ * s;
+    c_change = -2.0 * envelope * half_s * half_s + fall + decay_ * s;
   } else if (square_ > 0.0) {
     // rates a -+ root; the slow one without cancellation
     const double fast = decay_ + root_, slow = axis_.stiffness / axis_.inertia / fast;

@@ -31,6 +31,9 @@ struct System {
 
   double friction = 0.0;        ///< f, 0: no friction
   double regularization = 0.0;  ///< eps, 0: set-valued friction
+  /// |V|/eps beyond which tanh counts as 1 and the regularised law as sliding friction: to the last digit, or to what a
+  /// solver's tolerance asks for.
+  double tanh_saturation = 19.1;
 
   double aligned_depth = 0.0;
   bool has_inserted_depth = false;

@@ -69,7 +69,9 @@ class Search {
     found_.events[found_.count++] = {kind, site, face};
   }
 
-  Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site); }
+  Vec2 start_point(Site site) const {
+    return site_point(system_, segment_.begin, site, segment_.cos_phi[0], segment_.sin_phi[0]);
+  }
 
   /// Largest speeds and accelerations of the axes during the segment.
   void bound_motion(const DriveForms& drives) {
@@ -197,7 +199,7 @@ class Search {
         const double sign = state.slip == Slip::plus ? 1.0 : -1.0;
         if (pins.slip > MotionSeries::kHeldPowers || stays_at_rest(loaded)) break;
         for (int k = 0; k <= order_; ++k) g[k] = sign * contact.slip_velocity[k];
-        g[0] -= kTanhSaturation * system_.regularization;
+        g[0] -= system_.tanh_saturation * system_.regularization;
         offer(first_fall(g, order_, duration_, pins.slip), EventKind::slip_reversal, site);
         break;
       }
@@ -212,7 +214,7 @@ class Search {
       case Slip::regularized:
         for (const double sign : {1.0, -1.0}) {
           for (int k = 0; k <= order_; ++k) g[k] = -sign * contact.slip_velocity[k];
-          g[0] += kTanhSaturation * system_.regularization;
+          g[0] += system_.tanh_saturation * system_.regularization;
           const bool pinned = pins.slip > 0 && sign * contact.slip_velocity[0] > 0.0;
           offer(first_fall(g, order_, duration_, pinned ? pins.slip : 0), EventKind::slip, site);
         }

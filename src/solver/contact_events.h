@@ -19,9 +19,6 @@ struct FoundEvents {
   static constexpr double kNoEvent = -1.0;
 };
 
-/// |V|/eps beyond which tanh is 1 to the last digit: the regularised law is then sliding friction.
-constexpr double kTanhSaturation = 19.1;
-
 /// First event within [0, duration] of the segment, with all that coincide with it.
 FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
                         const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "solver/flight_search.h"
 #include "solver/held_state.h"
 #include "solver/series_noise.h"
 #include "solver/step_size.h"
@@ -12,16 +13,25 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Flight: order of the series in which events are sought, and their truncation error relative to the motion.
+/// Flight without exact closed form: order of the series and their truncation error relative to the motion.
 constexpr int kFlightOrder = 18;
 constexpr double kFlightTolerance = 1e-15;
+
+/// Flight in closed form: truncation error of the series in which events are sought, as a share of that of a contact
+/// step, and their order for so many digits: a step spans about 2.5 rad.
+constexpr double kSearchShare = 1e-2;
+constexpr int kSearchOrder = 9;
 
 /// Order of the series of motions so fast that their high powers overflow.
 constexpr int kLowOrder = 8;
 
-/// Leaps in flight, in radians of its fastest motion: shorter ones are left to the series, longer ones bound too
-/// loosely.
-constexpr double kShortestLeap = 0.3;
+/// Shortest flight, in radians of its fastest motion, that is worth a segment of its own without an event at its end.
+constexpr double kShortestLeap = 1.0;
+
+/// Largest correction of the time of an event, as a share of the step in which it was found.
+constexpr double kMostCorrection = 0.1;
+
+/// Longest segment in flight, in radians of its fastest motion.
 constexpr double kLongestLeap = 20.0;
 
 /// Longest flight in one closed form, in radians of its fastest motion.
@@ -72,6 +82,12 @@ double time_to_kink(const std::vector<Drive>& drives, const Instant& t) {
   return least;
 }
 
+/// Events at which a point crosses a face.
+bool is_crossing(EventKind kind) {
+  return kind == EventKind::touch || kind == EventKind::close || kind == EventKind::enter || kind == EventKind::leave ||
+         kind == EventKind::run_off;
+}
+
 bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
 }
@@ -80,6 +96,12 @@ Site first_sticking(const ContactStates& contacts) {
   std::size_t i = 0;
   while (contacts[i].slip != Slip::stick) ++i;
   return static_cast<Site>(i);
+}
+
+/// tanh z is 1 but for 2 exp(-2 z).
+System saturated(System system, double tolerance) {
+  system.tanh_saturation = std::min(system.tanh_saturation, 0.5 * std::log(2.0 / tolerance));
+  return system;
 }
 
 /// The last coefficients hold what any of the others is not.
@@ -91,9 +113,11 @@ bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx +
 
 EventSolver::EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance,
                          long step_limit, ContactMethod method)
-    : system_(system),
+    : system_(saturated(system, std::max(kStepShare * tolerance, kSmallestTolerance))),
       tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
       contact_order_(series_order(tolerance_)),
+      search_tolerance_(std::max(kSearchShare * tolerance_, kFlightTolerance)),
+      search_order_(std::min(kSearchOrder + static_cast<int>(-std::log10(search_tolerance_)), kMaxOrder)),
       step_limit_(step_limit),
       method_(method),
       series_(system_),
@@ -124,6 +148,18 @@ State EventSolver::flight_state(double duration) const {
   if (!flight_.exact()) state = state_at(segment_, duration);
   flight_.at(segment_.flight_time + duration, state);
   return state;
+}
+
+/// The time of a crossing in flight, found in the series to their truncation error, in the closed form: one step of
+/// Newton's method leaves the square of that error.
+double EventSolver::crossing_time(double found, const Event& event) const {
+  State state;
+  flight_.at(segment_.flight_time + found, state);
+  const ContactKinematics k = contact_kinematics(system_, state, event.site, event.face);
+  const double correction = -k.depth / k.depth_rate;
+  // a graze has no rate to divide by
+  if (!(std::abs(correction) <= kMostCorrection * segment_.duration)) return found;
+  return std::clamp(found + correction, 0.0, segment_.duration);
 }
 
 /// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
@@ -176,20 +212,25 @@ void EventSolver::go_to_end() {
   }
 }
 
-/// Passes over the part of a flight in which nothing can happen, in one segment without series. False when that is too
-/// short to be worth it.
-bool EventSolver::leap(double longest) {
+/// Flies in one segment in closed form, without series, to the next event if that is certain, or as far as nothing can
+/// happen. False when that is too short to be worth it.
+bool EventSolver::leap(double longest, FoundEvents& found) {
   if (!flight_.exact()) return false;
   for (const Recovery& recovery : mode_.recoveries)
     if (recovery.deformation > 0.0) return false;
-  const double most = std::min(longest, kLongestLeap / flight_.rate());
-  const double time =
-      flight_.free_time(system_, segment_.flight_time, state_, mode_.contacts, mode_.pins, outcomes_, most);
-  if (time < longest && time * flight_.rate() < kShortestLeap) return false;
+  const FlightOutlook outlook = look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins,
+                                           outcomes_, std::min(longest, kLongestLeap / flight_.rate()));
+  if (!outlook.lands && outlook.time < longest && outlook.time * flight_.rate() < kShortestLeap) return false;
   segment_.flight = &flight_;
   segment_.order = 0;
   segment_.loaded_count = 0;
-  segment_.duration = time;
+  segment_.duration = outlook.time;
+  segment_.end = outlook.end;
+  if (outlook.lands) {
+    found.time = outlook.time;
+    found.count = 1;
+    found.events[0] = outlook.event;
+  }
   ++counts_.rhs_evaluations;
   return true;
 }
@@ -268,19 +309,22 @@ const Segment& EventSolver::advance(double limit) {
   implicit_now_ = false;
   FoundEvents found;
   const double end = std::min(to_limit, to_kink);
-  if (contact || !leap(end)) {
+  const bool leaps = !contact && leap(end, found);
+  if (!leaps) {
     // power series, to the first of: end of the step, limit, kink of an excitation, event
-    double step = 0.0;
+    double step = 0.0, point_tolerance = tolerance_;
     if (contact) {
       step = contact_step(end, drives);
     } else {
-      series_.expand_free(state_, drives, kFlightOrder, segment_);
-      step = series_step(segment_, system_.friction, kFlightTolerance);
+      // where events are only sought in the series and their times corrected in the closed form, less will do
+      const bool corrects = flight_.exact() && !system_.recovery;
+      point_tolerance = corrects ? search_tolerance_ : kFlightTolerance;
+      series_.expand_free(state_, drives, corrects ? search_order_ : kFlightOrder, segment_);
+      step = series_step(segment_, system_.friction, point_tolerance);
     }
     if (!is_finite(segment_)) fail("the motion is no longer finite");
     // the series of the points turn with the part; those of the other edge and the corners follow from these
     segment_.coarse = implicit_now_;
-    const double point_tolerance = contact ? tolerance_ : kFlightTolerance;
     step = std::min({step, end, pair_step(series_.direction(segment_), segment_.order, point_tolerance)});
     if (!contact && system_.contacts.edges)
       step = std::min(step, pair_step(series_.point(Site::a1, segment_), segment_.order, point_tolerance));
@@ -298,6 +342,8 @@ const Segment& EventSolver::advance(double limit) {
       found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
     }
     if (found.count > 0) {
+      if (!contact && point_tolerance > kFlightTolerance && found.time > 0.0 && is_crossing(found.events[0].kind))
+        found.time = crossing_time(found.time, found.events[0]);
       segment_.duration = found.time;
       if (implicit_now_ && found.time > 0.0 && implicit_.retake(found.time, segment_, counts_))
         implicit_length_ = found.time;
@@ -308,9 +354,10 @@ const Segment& EventSolver::advance(double limit) {
     fail("the step has become too short");
 
   const bool whole_step = implicit_now_ && segment_.duration == implicit_length_;
-  segment_.end = whole_step ? implicit_.end()
-                 : contact  ? state_at(segment_, segment_.duration)
-                            : flight_state(segment_.duration);
+  if (!leaps)
+    segment_.end = whole_step ? implicit_.end()
+                   : contact  ? state_at(segment_, segment_.duration)
+                              : flight_state(segment_.duration);
   if (!is_finite(segment_.end)) fail("the motion is no longer finite");
   prepare_next(found, kink);
   return segment_;
@@ -320,6 +367,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
   const Instant end = segment_.start + segment_.duration;
   next_mode_ = mode_;
   for (Recovery& recovery : next_mode_.recoveries) {
+    if (recovery.deformation == 0.0) continue;
     recovery.deformation *= std::exp(-recovery.rate * segment_.duration);
     if (recovery.deformation < kNoDeformation) recovery = {};
   }

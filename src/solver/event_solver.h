@@ -25,8 +25,9 @@ class EventSolver final : public Solver {
   const SolverCounts& counts() const override { return counts_; }
 
  private:
-  bool leap(double longest);
+  bool leap(double longest, FoundEvents& found);
   State flight_state(double duration) const;
+  double crossing_time(double found, const Event& event) const;
   double tanh_layer_step() const;
   bool must_part() const;
   double series_contact_step(const DriveForms& drives);
@@ -40,6 +41,8 @@ class EventSolver final : public Solver {
   System system_;
   double tolerance_;
   int contact_order_;
+  double search_tolerance_;
+  int search_order_;
   long step_limit_;
 
   Instant now_;                   ///< start of the current segment

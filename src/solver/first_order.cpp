@@ -9,7 +9,8 @@ namespace {
 
 Slip slip_of(const System& system, double v, bool sticks) {
   if (system.friction == 0.0) return Slip::none;
-  if (system.regularization > 0.0 && std::abs(v) <= kTanhSaturation * system.regularization) return Slip::regularized;
+  if (system.regularization > 0.0 && std::abs(v) <= system.tanh_saturation * system.regularization)
+    return Slip::regularized;
   if (system.regularization == 0.0 && sticks) return Slip::stick;
   return v > 0.0 ? Slip::plus : Slip::minus;
 }

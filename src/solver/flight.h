@@ -1,11 +1,8 @@
 // A flight: the part moves freely, in closed form, from release to the next touch.
-//
-// Most of a flight is far from everything. How far it can be passed over in one leap without missing a touch follows
-// from bounds on third derivatives that hold for the whole flight (docs/hybrid_step.md "Leaps").
 #pragma once
 
 #include "mechanics/free_motion.h"
-#include "solver/contact_events.h"
+#include "solver/motion_series.h"
 
 namespace vibratory_alignment {
 
@@ -29,10 +26,11 @@ class Flight {
   /// Fastest rate in the motion, rad per unit of time.
   double rate() const { return rate_; }
 
-  /// Time from t (since the start) during which no site that is outside can touch and no outcome can occur; at most
-  /// `longest`. `state` is the state at t.
-  double free_time(const System& system, double t, const State& state, const ContactStates& contacts, const Pins& pins,
-                   const OutcomeGuards& outcomes, double longest) const;
+  /// Largest absolute values of the derivatives of the coordinates from the start of the flight to `end`.
+  struct Bounds {
+    FreeMotion::Bounds x, y, phi;
+  };
+  Bounds bounds(double end) const { return {x_.bounds(end), y_.bounds(end), phi_.bounds(end)}; }
 
  private:
   Instant start_;

@@ -15,8 +15,8 @@ void add_drive(const DriveForm& form, int order, Series& series) {
   double s = form.amplitude * form.sin_phase, c = form.amplitude * form.cos_phase, s_before = 0.0, c_before = 0.0;
   for (int k = 0; k <= order; ++k) {
     series[k] += s;
-    const double s_next = (form.frequency * c + form.rate * c_before) / (k + 1);
-    const double c_next = -(form.frequency * s + form.rate * s_before) / (k + 1);
+    const double s_next = (form.frequency * c + form.rate * c_before) * kInverse[k + 1];
+    const double c_next = -(form.frequency * s + form.rate * s_before) * kInverse[k + 1];
     s_before = s;
     c_before = c;
     s = s_next;
@@ -54,8 +54,6 @@ void MotionSeries::restart(int order, Segment& segment) {
   segment.cos_phi[0] = c;
   segment.sin_phi[0] = s;
   direction_[0] = Pair(c, s);
-  mirrored_[0] = Pair(c, -s);
-  swapped_[0] = Pair(s, c);
   known_trig_ = 0;
   known_centre_ = -1;
   known_point_.fill(-1);
@@ -113,8 +111,6 @@ void MotionSeries::trig_term(int k, Segment& segment) {
     s = product[0];
   }
   direction_[k] = Pair(c, s);
-  mirrored_[k] = Pair(c, -s);
-  swapped_[k] = Pair(s, c);
   segment.cos_phi[k] = c;
   segment.sin_phi[k] = s;
 }
@@ -122,10 +118,13 @@ void MotionSeries::trig_term(int k, Segment& segment) {
 /// (x c + y s, y c - x s), power k.
 void MotionSeries::centre_term(int k, const Segment& segment) {
   known_centre_ = k;
-  Pair sum = segment.x[k] * mirrored_[0] + segment.y[k] * swapped_[0];
+  Pair along = segment.x[k] * direction_[0], across = segment.y[k] * direction_[0];
   if (system_.phi.moves)
-    for (int j = 0; j < k; ++j) sum += segment.x[j] * mirrored_[k - j] + segment.y[j] * swapped_[k - j];
-  centre_[k] = sum;
+    for (int j = 0; j < k; ++j) {
+      along += segment.x[j] * direction_[k - j];
+      across += segment.y[j] * direction_[k - j];
+    }
+  centre_[k] = Pair(along[0] + across[1], across[0] - along[1]);
 }
 
 void MotionSeries::point_term(int point, int k, const Segment& segment) {
@@ -139,7 +138,7 @@ void MotionSeries::point_term(int point, int k, const Segment& segment) {
   }
   if (known_centre_ < k) centre_term(k, segment);
   const double l = side * system_.slot_half_width;
-  points_[point][k] = l * mirrored_[k] - centre_[k];
+  points_[point][k] = Pair(l * d[0] - centre_[k][0], -l * d[1] - centre_[k][1]);
 }
 
 const PairSeries& MotionSeries::point(Site site, Segment& segment) {

@@ -92,6 +92,8 @@ class MotionSeries {
   Load contact_load(int k, const Segment& segment) const;
   void accelerate(int k, const Load& load, Segment& segment) const;
   void expand_single(Segment& segment);
+  void expand_single_wide(Segment& segment);
+  void expand_any_single(Segment& segment);
   template <bool kEdge, bool kTurns, bool kTanh>
   void expand_single_of(Segment& segment);
 
@@ -100,7 +102,6 @@ class MotionSeries {
   int known_trig_ = 0;  ///< highest known power of cos and sin
   std::array<Contact, kSiteCount> contacts_;
   PairSeries direction_;              ///< (cos phi, sin phi)
-  PairSeries mirrored_, swapped_;     ///< (cos phi, -sin phi), (sin phi, cos phi)
   PairSeries centre_;                 ///< C in body axes: (x cos phi + y sin phi, y cos phi - x sin phi)
   int known_centre_ = -1;             ///< highest known power
   std::array<PairSeries, 4> points_;  ///< a1, a2, b1, b2 (floor sites share their corner)

@@ -4,11 +4,39 @@
 #include "solver/motion_series.h"
 
 namespace vibratory_alignment {
+namespace {
+
+/// Four numbers at once: one register where the processor has AVX, else two. The results are the same to the bit.
+using Quad = double __attribute__((vector_size(32)));
+
+#define VIBRATORY_ALIGNMENT_INLINE __attribute__((always_inline)) inline
+
+/// Powers as factors of products, each number as often as it is needed. The product of power k sums left j with
+/// right k - j.
+struct LeftFactors {
+  Quad direction;  ///< c, s, c, s
+  Quad moment;     ///< tanh law: c, s, and the moments per unit of N and of T
+  Quad layer;      ///< tanh law: tanh, tanh, 1 - tanh^2, -
+};
+struct RightFactors {
+  Quad turn_push;  ///< omega, omega, N, N
+  Quad centre;     ///< x, x, y, y of the next power
+  Quad moment;     ///< tanh law: T, T, N, T
+  Quad layer;      ///< tanh law: tanh, N, V' of the power before, -
+};
+
+/// a (c, s) + b (-s, c).
+VIBRATORY_ALIGNMENT_INLINE Pair turned(double c, double s, double a, double b) {
+  return Pair(a * c - b * s, a * s + b * c);
+}
+
+}  // namespace
 
 /// The whole expansion for one contact that slides (or whose friction is regularised) on a base whose stiffness does
-/// not turn: the same recurrences, in one loop.
+/// not turn: the same recurrences, in one loop. All products of series whose factors are known when a power begins are
+/// summed together; what a power itself finds is added as its last term.
 template <bool kEdge, bool kTurns, bool kTanh>
-void MotionSeries::expand_single_of(Segment& segment) {
+VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment) {
   const Contact& contact = contacts_[0];
   ContactSeries& series = segment.loaded[0];
   PairSeries& point = points_[contact.point];
@@ -16,84 +44,110 @@ void MotionSeries::expand_single_of(Segment& segment) {
   const ContactFrame& f = contact.frame;
   const double side = side_of(contact.site), l = side * system_.slot_half_width, beta = side * system_.half_width,
                b0 = system_.base_distance;
-  const Pair depth_row(f.sign * f.n1, f.sign * f.n2), slip_row(-f.sign * f.t1(), -f.sign * f.t2());
-  const Pair force_row(contact.force1, contact.force2), moment_row(contact.force2, -contact.force1),
-      crossed_row(-contact.force2, contact.force1);
-  const Pair drag_row(f.t1(), f.t2()), drag_moment_row(f.t2(), -f.t1()), drag_crossed_row(-f.t2(), f.t1());
+  const double depth_1 = f.sign * f.n1, depth_2 = f.sign * f.n2, slip_1 = -f.sign * f.t1(), slip_2 = -f.sign * f.t2();
+  // forces per unit of N (sliding friction included) and of T, in the axes of the frame
+  const double push_1 = kTanh ? f.n1 : contact.force1, push_2 = kTanh ? f.n2 : contact.force2;
+  const double drag_1 = f.t1(), drag_2 = f.t2();
   const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
-               fast_phi = system_.phi.inverse_inertia, eps = system_.regularization;
-  PairSeries push, drag;
-  Series push_moment, drag_moment, tanh, sech2;
-  for (int k = -1; k < order + 1; ++k) {
-    // direction, point and depth of power k + 1
+               fast_phi = system_.phi.inverse_inertia, slope = kTanh ? 1.0 / system_.regularization : 0.0;
+  LeftFactors left[kMaxOrder + 1];
+  RightFactors right[kMaxOrder + 1];
+  double push_moment[kMaxOrder + 1], tanh_0 = 0.0, sech2_0 = 0.0, normal_0 = 0.0, drag_moment_0 = 0.0;
+  const double x_0 = segment.x[0], y_0 = segment.y[0], c_0 = segment.cos_phi[0], s_0 = segment.sin_phi[0];
+
+  for (int n = 0;; ++n) {
+    // direction, point and depth of power n = k + 1, from all sums over what the powers up to k know
+    const int k = n - 1;
+    Quad turn_push{}, centre{}, moments{}, layer{};
+    double moment = 0.0;
+    double c = c_0, s = s_0;
     if (k >= 0) {
-      Pair turn(0.0, 0.0);
-      if (kTurns) turn = product_term(direction_, segment.omega, k) * kInverse[k + 1];
-      direction_[k + 1] = Pair(-turn[1], turn[0]);
-      mirrored_[k + 1] = Pair(-turn[1], -turn[0]);
-      swapped_[k + 1] = Pair(turn[0], -turn[1]);
-      segment.cos_phi[k + 1] = -turn[1];
-      segment.sin_phi[k + 1] = turn[0];
-    }
-    const int n = k + 1;
-    const Pair& d = direction_[n];
-    if (kEdge) {
-      Pair along = segment.x[n] * mirrored_[0], across = segment.y[n] * swapped_[0];
-      if (kTurns)
-        for (int j = 0; j < n; ++j) {
-          along += segment.x[j] * mirrored_[n - j];
-          across += segment.y[j] * swapped_[n - j];
+      if (kEdge) push_moment[k] = push_2 * point[k][0] - push_1 * point[k][1];
+      const double drag_moment = kEdge && kTanh ? drag_2 * point[k][0] - drag_1 * point[k][1] : 0.0;
+      if (k == 0) drag_moment_0 = drag_moment;
+      if (kTurns) {
+        const double ck = segment.cos_phi[k], sk = segment.sin_phi[k];
+        left[k].direction = Quad{ck, sk, ck, sk};
+        if (kTanh) left[k].moment = Quad{ck, sk, kEdge ? push_moment[k] : 0.0, drag_moment};
+      }
+      if (kTanh) left[k].layer = Quad{};
+      for (int j = 1; j <= k; ++j) {
+        const LeftFactors& a = left[j];
+        const RightFactors& b = right[k - j];
+        if (kTurns) {
+          turn_push += a.direction * b.turn_push;
+          if (kEdge) centre += a.direction * b.centre;
+          if (kTanh) moments += a.moment * b.moment;
+          if (kEdge && !kTanh) moment += push_moment[j] * b.turn_push[2];
         }
-      centre_[n] = along + across;
-      point[n] = l * mirrored_[n] - centre_[n];
-    } else {
-      point[n] = Pair(segment.x[n] + beta * d[0] + b0 * d[1], segment.y[n] + beta * d[1] - b0 * d[0]);
+        if (kTanh) layer += a.layer * b.layer;
+      }
+      const double omega = segment.omega[k];
+      c = kTurns ? -(turn_push[1] + s_0 * omega) * kInverse[n] : 0.0;
+      s = kTurns ? (turn_push[0] + c_0 * omega) * kInverse[n] : 0.0;
     }
-    series.depth[n] = (depth_row * point[n]).sum();
+    direction_[n] = Pair(c, s);
+    segment.cos_phi[n] = c;
+    segment.sin_phi[n] = s;
+    const double xn = segment.x[n], yn = segment.y[n];
+    if (kEdge) {
+      const double along_c = centre[0] + (c_0 * xn + (n > 0 ? c * x_0 : 0.0)),
+                   along_s = centre[1] + (s_0 * xn + (n > 0 ? s * x_0 : 0.0)),
+                   across_c = centre[2] + (c_0 * yn + (n > 0 ? c * y_0 : 0.0)),
+                   across_s = centre[3] + (s_0 * yn + (n > 0 ? s * y_0 : 0.0));
+      centre_[n] = Pair(along_c + across_s, across_c - along_s);
+      point[n] = Pair(l * c - centre_[n][0], -l * s - centre_[n][1]);
+    } else {
+      point[n] = Pair(xn + beta * c + b0 * s, yn + beta * s - b0 * c);
+    }
+    series.depth[n] = depth_1 * point[n][0] + depth_2 * point[n][1];
     if (k < 0) {
       series.depth[0] += f.offset;
       continue;
     }
-    // forces of power k
-    const double normal = contact.stiffness * series.depth[k] + contact.damping * n * series.depth[n];
-    series.normal_force[k] = normal;
-    series.slip_velocity[k] = n * (slip_row * point[n]).sum();
-    const Pair lever =
-        kEdge ? point[k]
-              : Pair(beta * direction_[k][0] + b0 * direction_[k][1], beta * direction_[k][1] - b0 * direction_[k][0]);
-    push_moment[k] = (moment_row * lever).sum();
-    if (kEdge) push[k] = force_row[0] * direction_[k] + force_row[1] * Pair(-direction_[k][1], direction_[k][0]);
-    Pair force;
-    double moment = 0.0;
-    if (kEdge && kTurns)
-      force = product_term(push, series.normal_force, k);
-    else
-      force = normal * (kEdge ? push[0] : force_row);
-    if (kTurns) moment = product_term(push_moment, series.normal_force, k);
-    if (kTanh) {
-      if (k == 0) {
-        tanh[0] = std::tanh(series.slip_velocity[0] / eps);
-      } else {
-        double z = 0.0;
-        for (int j = 0; j < k; ++j) z += (j + 1) * series.slip_velocity[j + 1] * sech2[k - 1 - j];
-        tanh[k] = z * kInverse[k] / eps;
-      }
-      sech2[k] = (k == 0 ? 1.0 : 0.0) - product_term(tanh, tanh, k);
-      series.tangential_force[k] = -system_.friction * product_term(series.normal_force, tanh, k);
-      drag_moment[k] = (drag_moment_row * lever).sum();
-      if (kEdge) drag[k] = drag_row[0] * direction_[k] + drag_row[1] * Pair(-direction_[k][1], direction_[k][0]);
-      if (kEdge && kTurns)
-        force += product_term(drag, series.tangential_force, k);
-      else
-        force += series.tangential_force[k] * (kEdge ? drag[0] : drag_row);
-      if (kTurns) moment += product_term(drag_moment, series.tangential_force, k);
-    } else {
-      series.tangential_force[k] = contact.ratio * normal;
+
+    // N, V and T of power k
+    const double force_n = contact.stiffness * series.depth[k] + contact.damping * n * series.depth[n];
+    const double v = n * (slip_1 * point[n][0] + slip_2 * point[n][1]);
+    double force_t = contact.ratio * force_n;
+    if (kTanh && k == 0) {
+      tanh_0 = std::tanh(v * slope);
+      sech2_0 = 1.0 - tanh_0 * tanh_0;
+      normal_0 = force_n;
+      force_t = -system_.friction * force_n * tanh_0;
+      right[0].layer = Quad{tanh_0, force_n, 0.0, 0.0};
+    } else if (kTanh) {
+      const double slip_rate = k * v, tanh = (layer[2] + slip_rate * sech2_0) * kInverse[k] * slope;
+      left[k].layer = Quad{tanh, tanh, -(layer[0] + 2.0 * tanh_0 * tanh), 0.0};
+      right[k].layer = Quad{tanh, force_n, slip_rate, 0.0};
+      force_t = -system_.friction * (layer[1] + force_n * tanh_0 + normal_0 * tanh);
     }
+    series.normal_force[k] = force_n;
+    series.slip_velocity[k] = v;
+    series.tangential_force[k] = force_t;
     if (k == order) break;
-    // velocity of power k + 1, position of power k + 2
-    const double dx = k == 0 ? segment.x[0] - system_.x.anchor : segment.x[k];
-    const double dy = k == 0 ? segment.y[0] - system_.y.anchor : segment.y[k];
+
+    // forces and moment of power k
+    const double push_c = turn_push[2] + c_0 * force_n, push_s = turn_push[3] + s_0 * force_n;
+    const double drag_c = moments[0] + c_0 * force_t, drag_s = moments[1] + s_0 * force_t;
+    Pair force(push_1 * force_n, push_2 * force_n);
+    if (kEdge) {
+      force = turned(push_c, push_s, push_1, push_2);
+      moment += push_moment[0] * force_n + moments[2];
+    } else if (kTurns) {
+      moment = (push_1 * b0 + push_2 * beta) * push_c + (push_2 * b0 - push_1 * beta) * push_s;
+    }
+    if (kTanh && kEdge) {
+      force += turned(drag_c, drag_s, drag_1, drag_2);
+      moment += moments[3] + drag_moment_0 * force_t;
+    } else if (kTanh) {
+      force += Pair(drag_1 * force_t, drag_2 * force_t);
+      moment += (drag_1 * b0 + drag_2 * beta) * drag_c + (drag_2 * b0 - drag_1 * beta) * drag_s;
+    }
+
+    // velocity of power n, position of power n + 1
+    const double dx = k == 0 ? x_0 - system_.x.anchor : segment.x[k];
+    const double dy = k == 0 ? y_0 - system_.y.anchor : segment.y[k];
     const double weight = k == 0 ? system_.weight : 0.0;
     const double inverse = kInverse[n], next_inverse = kInverse[n + 1];
     segment.vx[n] = fast_x * inverse *
@@ -105,10 +159,13 @@ void MotionSeries::expand_single_of(Segment& segment) {
     segment.y[n + 1] = segment.vy[n] * next_inverse;
     if (kTurns) {
       const double dphi = k == 0 ? segment.phi[0] - system_.phi.anchor : segment.phi[k];
-      segment.omega[n] =
-          fast_phi * inverse *
-          (segment.drive_phi[k] + moment - system_.phi.damping * segment.omega[k] - system_.phi.stiffness * dphi);
+      const double omega = segment.omega[k];
+      segment.omega[n] = fast_phi * inverse *
+                         (segment.drive_phi[k] + moment - system_.phi.damping * omega - system_.phi.stiffness * dphi);
       segment.phi[n + 1] = segment.omega[n] * next_inverse;
+      right[k].turn_push = Quad{omega, omega, force_n, force_n};
+      if (kEdge) right[k].centre = Quad{segment.x[n], segment.x[n], segment.y[n], segment.y[n]};
+      if (kTanh) right[k].moment = Quad{force_t, force_t, force_n, force_t};
     } else {
       segment.omega[n] = segment.phi[n + 1] = 0.0;
     }
@@ -118,7 +175,7 @@ void MotionSeries::expand_single_of(Segment& segment) {
   if (kEdge) known_centre_ = order + 1;
 }
 
-void MotionSeries::expand_single(Segment& segment) {
+VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_any_single(Segment& segment) {
   const bool edge = is_edge(contacts_[0].site), turns = system_.phi.moves, tanh = contacts_[0].separate_t;
   if (edge)
     turns ? (tanh ? expand_single_of<true, true, true>(segment) : expand_single_of<true, true, false>(segment))
@@ -127,5 +184,16 @@ void MotionSeries::expand_single(Segment& segment) {
     turns ? (tanh ? expand_single_of<false, true, true>(segment) : expand_single_of<false, true, false>(segment))
           : (tanh ? expand_single_of<false, false, true>(segment) : expand_single_of<false, false, false>(segment));
 }
+
+#ifdef __x86_64__
+__attribute__((target("avx2"))) void MotionSeries::expand_single_wide(Segment& segment) { expand_any_single(segment); }
+
+void MotionSeries::expand_single(Segment& segment) {
+  static const bool wide = __builtin_cpu_supports("avx2") != 0;
+  wide ? expand_single_wide(segment) : expand_any_single(segment);
+}
+#else
+void MotionSeries::expand_single(Segment& segment) { expand_any_single(segment); }
+#endif
 
 }  // namespace vibratory_alignment

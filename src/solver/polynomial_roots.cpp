@@ -16,16 +16,47 @@ struct Range {
   double low, high;
 };
 
+/// Two coefficients at a time; an odd last one alone.
+template <typename TwoTerms, typename OneTerm>
+void for_powers(int from, int order, const TwoTerms& two, const OneTerm& one) {
+  int k = from;
+  for (; k < order; k += 2) two(k);
+  if (k == order) one(k);
+}
+
+Pair pair_at(const Series& g, int k) { return Eigen::Map<const Pair>(&g[static_cast<std::size_t>(k)]); }
+
 Range range_on_unit(const Series& g, int order) {
+  Pair low(0.0, 0.0), high(0.0, 0.0);
   Range range{g[0], g[0]};
-  for (int k = 1; k <= order; ++k) (g[k] < 0.0 ? range.low : range.high) += g[k];
+  for_powers(
+      1, order,
+      [&](int k) {
+        const Pair term = pair_at(g, k);
+        low += term.min(0.0);
+        high += term.max(0.0);
+      },
+      [&](int k) { (g[k] < 0.0 ? range.low : range.high) += g[k]; });
+  range.low += low.sum();
+  range.high += high.sum();
   return range;
 }
 
 /// Bounds of the derivative on [0, 1].
 Range slope_on_unit(const Series& g, int order) {
+  Pair low(0.0, 0.0), high(0.0, 0.0), power(2.0, 3.0);
   Range range{g[1], g[1]};
-  for (int k = 2; k <= order; ++k) (g[k] < 0.0 ? range.low : range.high) += k * g[k];
+  for_powers(
+      2, order,
+      [&](int k) {
+        const Pair term = pair_at(g, k) * power;
+        low += term.min(0.0);
+        high += term.max(0.0);
+        power += 2.0;
+      },
+      [&](int k) { (g[k] < 0.0 ? range.low : range.high) += k * g[k]; });
+  range.low += low.sum();
+  range.high += high.sum();
   return range;
 }
 
@@ -36,10 +67,24 @@ void require_finite(const Series& unit, int order) {
   if (!std::isfinite(sum)) throw SolverFailure("the motion is no longer finite");
 }
 
-/// g(t h) as a polynomial on [0, 1].
-void scale_to_unit(const Series& g, int order, double h, Series& unit) {
-  double power = 1.0;
-  for (int k = 0; k <= order; ++k, power *= h) unit[k] = g[k] * power;
+/// g(t h) as a polynomial on [0, 1]; its least value there, at least.
+double scale_to_unit(const Series& g, int order, double h, Series& unit) {
+  Pair power(1.0, h), low(0.0, 0.0);
+  const double square = h * h;
+  for_powers(
+      0, order,
+      [&](int k) {
+        const Pair term = pair_at(g, k) * power;
+        unit[k] = term[0];
+        unit[k + 1] = term[1];
+        low += term.min(0.0);
+        power *= square;
+      },
+      [&](int k) {
+        unit[k] = g[k] * power[0];
+        low[0] += std::min(unit[k], 0.0);
+      });
+  return std::max(unit[0], 0.0) + low.sum();
 }
 
 /// The left and right half of [0, 1], each as a polynomial on [0, 1].
@@ -52,21 +97,28 @@ void right_half(const Series& g, int order, Series& half) {
     for (int k = order - 1; k >= i; --k) half[k] += half[k + 1];
 }
 
-/// Root of g on [0, 1], where g(0) > 0 > g(1) and g falls throughout: Newton kept inside a shrinking bracket.
+/// Root of g on [0, 1], where g(0) > 0 > g(1) and g falls throughout: Halley's iteration kept inside a shrinking
+/// bracket. It converges with the third power, so a step this small leaves nothing to do.
 double falling_root(const Series& g, int order) {
+  constexpr double kLastStep = 1e-6;
   double low = 0.0, high = 1.0;
   const double total = std::max(-value_at(g, order, 1.0), 0.0) + g[0];
   double t = g[0] / total;
   for (int i = 0; i < 100; ++i) {
-    double value = g[order], slope = 0.0;
+    // value, slope and half the curvature
+    double value = g[order], slope = 0.0, bend = 0.0;
     for (int k = order - 1; k >= 0; --k) {
+      bend = bend * t + slope;
       slope = slope * t + value;
       value = value * t + g[k];
     }
     (value > 0.0 ? low : high) = t;
-    double next = t - value / slope;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::abs(next - t) <= 1e-16 * t || next == t) return next;
+    const double newton = value / slope, turn = newton * bend / slope;
+    double next = t - newton / (1.0 - turn);
+    const bool inside = next >= low && next <= high;
+    if (!inside) next = 0.5 * (low + high);
+    const double step = std::abs(next - t);
+    if (step <= 1e-16 * t || (inside && step <= kLastStep * t && std::abs(turn) <= kLastStep)) return next;
     t = next;
   }
   return t;
@@ -79,7 +131,7 @@ double first_fall_on_unit(const Series& g, int order, int halvings) {
   if (slope.low >= 0.0) return kNoRoot;
   if (slope.high <= 0.0) return value_at(g, order, 1.0) < 0.0 ? falling_root(g, order) : kNoRoot;
   if (halvings == kMaxHalvings) return value_at(g, order, 1.0) < 0.0 ? 1.0 : kNoRoot;
-  Series half{};
+  Series half;
   left_half(g, order, half);
   const double left = first_fall_on_unit(half, order, halvings + 1);
   if (left != kNoRoot) return 0.5 * left;
@@ -138,12 +190,8 @@ Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kM
 }  // namespace
 
 double first_fall(const Series& g, int order, double h, int zeros_at_start) {
-  Series unit{};
-  double power = 1.0, low = 0.0;
-  for (int k = 0; k <= order; ++k, power *= h) {
-    unit[k] = g[k] * power;
-    if (k == 0 || unit[k] < 0.0) low += unit[k];
-  }
+  Series unit;
+  const double low = scale_to_unit(g, order, h, unit);
   if (low > 0.0 && zeros_at_start == 0) return kNoRoot;
   require_finite(unit, order);
   if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);

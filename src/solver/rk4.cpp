@@ -97,7 +97,7 @@ class RightHandSide {
 
 Slip slip_of(const System& system, const ContactForces& contact) {
   if (system.friction == 0.0) return Slip::none;
-  if (std::abs(contact.slip_velocity) <= kTanhSaturation * contact.layer) return Slip::regularized;
+  if (std::abs(contact.slip_velocity) <= system.tanh_saturation * contact.layer) return Slip::regularized;
   return contact.slip_velocity > 0.0 ? Slip::plus : Slip::minus;
 }
 

@@ -19,14 +19,21 @@ double rough_log2(double value) {
   return static_cast<double>(bits) * 0x1p-52 - 1023.0;
 }
 
-/// log2 of the time at which term k has fallen to `tolerance` times the largest leading term.
-double log2_step(const Series& v, int k, double log2_tolerance) {
-  if (v[k] == 0.0) return kInfinity;
-  const double last = rough_log2(std::abs(v[k]));
-  double longest = -kInfinity;
-  for (int j = 0; j < kLeadingTerms; ++j)
-    if (v[j] != 0.0) longest = std::max(longest, (log2_tolerance + rough_log2(std::abs(v[j])) - last) / (k - j));
-  return longest;
+/// log2 of the time at which the terms `order` - 1 and `order` have both fallen to `tolerance` times the largest
+/// leading term.
+double log2_step(const Series& v, int order, double log2_tolerance) {
+  double shortest = kInfinity;
+  double leading[kLeadingTerms];
+  for (int j = 0; j < kLeadingTerms; ++j) leading[j] = log2_tolerance + rough_log2(std::abs(v[j]));
+  for (int k = order - 1; k <= order; ++k) {
+    if (v[k] == 0.0) continue;
+    const double last = rough_log2(std::abs(v[k]));
+    double longest = -kInfinity;
+    for (int j = 0; j < kLeadingTerms; ++j)
+      if (v[j] != 0.0) longest = std::max(longest, (leading[j] - last) * kInverse[k - j]);
+    shortest = std::min(shortest, longest);
+  }
+  return shortest;
 }
 
 }  // namespace
@@ -35,10 +42,9 @@ double series_step(const Segment& segment, double friction, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
   double shortest = kInfinity;
   for (const Series* v : {&segment.vx, &segment.vy, &segment.omega}) {
-    const int order = segment.order;
     // an axis whose leading terms vanish has no scale of its own
     if ((*v)[0] == 0.0 && (*v)[1] == 0.0 && (*v)[2] == 0.0 && (*v)[3] == 0.0) continue;
-    shortest = std::min({shortest, log2_step(*v, order, log2_tolerance), log2_step(*v, order - 1, log2_tolerance)});
+    shortest = std::min(shortest, log2_step(*v, segment.order, log2_tolerance));
   }
   // a contact that holds the part at rest: all that changes is T
   for (int i = 0; i < segment.loaded_count; ++i) {
@@ -47,8 +53,7 @@ double series_step(const Segment& segment, double friction, double tolerance) {
     Series scale = contact.tangential_force;
     for (int k = 0; k < kLeadingTerms; ++k)
       scale[k] = std::abs(scale[k]) + friction * std::abs(contact.normal_force[k]);
-    for (int k = segment.order - 2; k < segment.order; ++k)
-      shortest = std::min(shortest, log2_step(scale, k, log2_tolerance));
+    shortest = std::min(shortest, log2_step(scale, segment.order - 1, log2_tolerance));
   }
   return std::exp2(shortest);
 }
@@ -65,7 +70,7 @@ double pair_step(const PairSeries& series, int order, double tolerance) {
 
 int series_order(double tolerance) {
   const double digits = -std::log10(tolerance);
-  return std::clamp(static_cast<int>(std::ceil(5.0 + digits)), 8, kMaxOrder - 2);
+  return std::clamp(static_cast<int>(std::ceil(7.0 + digits)), 8, kMaxOrder - 2);
 }
 
 }  // namespace vibratory_alignment

@@ -40,7 +40,7 @@ constexpr double kPushRounding = 1e-9;
 constexpr double kFastestRecovery = 1e12;
 
 /// Slip velocity beyond which a contact slides with the full friction force.
-double sliding_threshold(const System& system) { return kTanhSaturation * system.regularization; }
+double sliding_threshold(const System& system) { return system.tanh_saturation * system.regularization; }
 
 /// Sets the law of friction of every loaded contact. `zero_slip` marks those whose V or stick an event has just brought
 /// to its end, `slides` those that are decided already; `speed`: what V is small against.

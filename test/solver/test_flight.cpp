@@ -1,6 +1,6 @@
-// Leaps in flight: the bounds on the closed form hold, and nothing is touched during a leap. Both by dense sampling of
-// motions with every kind of damping and drive.
-#include "solver/flight.h"
+// Flight in closed form: the bounds on it hold, nothing is touched during a leap, and a landing is where the depth is
+// zero. By dense sampling of motions with every kind of damping and drive.
+#include "solver/flight_search.h"
 
 #include <gtest/gtest.h>
 
@@ -91,8 +91,8 @@ double deepest(const System& system, const State& state) {
   return depth;
 }
 
-TEST(Flight, nothing_is_touched_during_a_leap) {
-  int leaps = 0, long_ones = 0;
+TEST(Flight, nothing_is_touched_before_what_look_ahead_tells) {
+  int leaps = 0, long_ones = 0, landings = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     const Scene scene = test::random_scene(seed);
     const System system = make_system(scene);
@@ -111,7 +111,8 @@ TEST(Flight, nothing_is_touched_during_a_leap) {
     double t = 0.0;
     for (int leap = 0; leap < 30; ++leap) {
       flight.at(t, state);
-      const double free = flight.free_time(system, t, state, {}, {}, {}, longest);
+      const FlightOutlook outlook = look_ahead(system, flight, t, state, {}, {}, {}, longest);
+      const double free = outlook.time;
       ASSERT_GE(free, 0.0);
       ASSERT_LE(free, longest);
       if (free == 0.0) break;
@@ -120,7 +121,21 @@ TEST(Flight, nothing_is_touched_during_a_leap) {
       for (int k = 0; k <= 200; ++k) {
         State inside = state;
         flight.at(t + free * k / 200.0, inside);
-        ASSERT_LE(deepest(system, inside), 1e-13) << "seed " << seed << ", leap " << leap << " of " << free << " at " << t;
+        ASSERT_LE(deepest(system, inside), 1e-13)
+            << "seed " << seed << ", leap " << leap << " of " << free << " at " << t;
+      }
+      State end = state;
+      flight.at(t + free, end);
+      EXPECT_EQ(outlook.end.y, end.y);
+      EXPECT_EQ(outlook.end.omega, end.omega);
+      if (outlook.lands) {
+        // the depth is zero and rises
+        ++landings;
+        EXPECT_EQ(outlook.event.kind, EventKind::touch);
+        const ContactKinematics touch = contact_kinematics(system, end, outlook.event.site, outlook.event.face);
+        EXPECT_NEAR(touch.depth, 0.0, 1e-14) << "seed " << seed;
+        EXPECT_GT(touch.depth_rate, 0.0) << "seed " << seed;
+        break;
       }
       t += free;
       if (t > 10.0) break;
@@ -128,6 +143,7 @@ TEST(Flight, nothing_is_touched_during_a_leap) {
   }
   EXPECT_GT(leaps, 500);
   EXPECT_GT(long_ones, 200);
+  EXPECT_GT(landings, 100);
 }
 
 // On its way out of a contact a site starts at depth 0 and must be seen as leaving, at any speed.
@@ -139,7 +155,7 @@ TEST(Flight, a_site_that_leaves_its_face_is_no_hindrance) {
     pins[0].face = Face::bottom;
     Flight flight(0);
     flight.begin(system, state, {}, {});
-    const double free = flight.free_time(system, 0.0, state, {}, pins, {}, 1.0);
+    const double free = look_ahead(system, flight, 0.0, state, {}, pins, {}, 1.0).time;
     // it turns no way, and is back on the base after 2 v/g
     const double back = 2.0 * speed / (system.base_distance - system.y.anchor);
     EXPECT_GT(free, 0.4 * std::min(back, 1.0)) << speed;
