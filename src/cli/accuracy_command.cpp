@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "cli/output_path.h"
 #include "cli/scene_path.h"
 #include "model/scene_loader.h"
+#include "model/solver_choice.h"
 #include "model/solver_names.h"
 #include "study/accuracy.h"
 
@@ -114,18 +116,33 @@ void draw(const std::string& csv, const std::string& picture, const std::string&
     throw std::runtime_error("--plot: " + script.string() + " failed; it needs python3-matplotlib");
 }
 
-/// One sentence for each of a few errors.
-void print_advice(const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
+/// What `solver: {accuracy: ...}` makes of it, and how that went if it is among the runs.
+void print_choice(const Scene& scene, const std::vector<AccuracyRun>& runs, double error) {
+  const std::string solver = solver_for_accuracy(scene);
+  const double tolerance = tolerance_for_accuracy(error);
+  std::printf("  solver: {accuracy: %.0e} picks %s with a tolerance of %.1e", error, solver.c_str(), tolerance);
+  for (const AccuracyRun& run : runs)
+    if (run.solver == solver && run.failure.empty() && std::abs(run.setting - tolerance) < 1e-6 * tolerance)
+      std::printf(": error %.1e, %.0f us", run.pose_error, 1e6 * run.cpu_seconds);
+  std::printf(".\n");
+}
+
+/// For each of a few errors the cheapest way, and the way to have one chosen.
+void print_advice(const Scene& scene, const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
   std::printf("\n");
   for (const double error : {1e-3, 1e-6, 1e-9}) {
-    if (error < reference.agreement) continue;
+    if (error < reference.agreement) {
+      std::printf("For an error of %.0e: not known, the two references differ by more.\n", error);
+      continue;
+    }
     const AccuracyRun* run = cheapest_for(runs, error);
     if (run == nullptr) {
       std::printf("For an error of %.0e: none of these keeps it.\n", error);
-      continue;
+    } else {
+      std::printf("For an error of %.0e use %s with a %s of %.1e: it costs %.0f us.\n", error, run->solver.c_str(),
+                  run->fixed_step ? "step" : "tolerance", run->setting, 1e6 * run->cpu_seconds);
     }
-    std::printf("For an error of %.0e use %s with a %s of %.1e: it costs %.0f us.\n", error, run->solver.c_str(),
-                run->fixed_step ? "step" : "tolerance", run->setting, 1e6 * run->cpu_seconds);
+    print_choice(scene, runs, error);
   }
 }
 
@@ -159,7 +176,7 @@ int run_accuracy(const Options& options) {
     std::fprintf(stderr, "align: interrupted; no file is written\n");
     return 128 + interrupt.signal();
   }
-  print_advice(runs, reference);
+  print_advice(scene, runs, reference);
   std::fflush(stdout);
   if (csv) {
     write_csv(csv->temporary(), csv->path(), runs, reference);

@@ -73,6 +73,7 @@ json solver_object(const TrialResult& result, const OutputUnits& units) {
   } else {
     object["tolerance"] = result.solver_tolerance;
   }
+  if (result.solver_accuracy > 0.0) object["accuracy"] = result.solver_accuracy;
   return object;
 }
 

@@ -138,6 +138,7 @@ std::string solver_text(const TrialResult& result, const Report& report) {
   std::string text = result.solver_name + ", ";
   text += result.solver_step > 0.0 ? "step " + report.in_line(result.solver_step, &ReadingUnits::time)
                                    : format("tolerance %.3g", result.solver_tolerance);
+  if (result.solver_accuracy > 0.0) text += format(", for accuracy %.3g", result.solver_accuracy);
   return text + format("; %ld steps (%ld rejected), %ld evaluations, %ld events, %.3g ms of CPU time",
                        result.counts.steps, result.counts.rejected, result.counts.rhs_evaluations, result.counts.events,
                        1e3 * result.cpu_seconds);

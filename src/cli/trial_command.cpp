@@ -21,6 +21,7 @@
 #include "cli/summary.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
+#include "model/solver_choice.h"
 #include "model/solver_names.h"
 #include "model/tree_reader.h"
 #include "node/bag_writer.h"
@@ -39,6 +40,7 @@ constexpr char kFooter[] = R"(Examples:
   align trial fig2 --csv run.csv --sample 0.01   motion and forces, every 0.01 and at every event
   align trial fig2 --set friction.coefficient=0.3 --set excitation.frequency=25
   align trial fig2 --until 5 --tolerance 1e-10   the motion until 5, more exactly
+  align trial fig2 --accuracy 1e-6               solver and tolerance chosen for this error of the end
   align trial fig2 --solver rk4 --step 1e-4      the same by another solver (docs/solvers.md)
 
 Units:
@@ -59,7 +61,7 @@ Exit status: 0 the trial ran, whatever its outcome; 1 it failed while running; 2
 
 struct TrialOptions {
   std::string scene;
-  std::string solver, tolerance, step;
+  std::string solver, accuracy, tolerance, step;
   std::optional<double> until, sample;
   std::vector<std::string> settings;
   bool json = false;
@@ -71,6 +73,13 @@ std::string check_positive(const std::string& text) {
   const std::optional<double> value = parse_number(text);
   if (value && *value > 0.0 && has_sane_size(*value)) return {};
   return text + " is not allowed: give a number > 0";
+}
+
+/// Accepts what a scene accepts as solver.accuracy.
+std::string check_accuracy(const std::string& text) {
+  const std::optional<double> value = parse_number(text);
+  if (value && *value >= kFinestAccuracy && *value <= kCoarsestAccuracy) return {};
+  return text + " is not allowed: give a number from 1e-9 to 0.1";
 }
 
 std::string solver_list() {
@@ -112,11 +121,21 @@ Scene load(const TrialOptions& options, const std::string& file) {
   if (!options.solver.empty()) {
     apply_setting(tree, "solver.name=" + options.solver);
     // What the scene gives for its own solver means nothing to one of the other kind.
-    drop_solver_key(tree, find_solver(options.solver)->fixed_step ? "tolerance" : "step");
+    const bool fixed_step = find_solver(options.solver)->fixed_step;
+    drop_solver_key(tree, fixed_step ? "tolerance" : "step");
+    if (fixed_step) drop_solver_key(tree, "accuracy");
+  }
+  if (!options.tolerance.empty() || !options.step.empty()) drop_solver_key(tree, "accuracy");
+  if (!options.accuracy.empty()) {
+    for (const char* chosen : {"tolerance", "step"}) drop_solver_key(tree, chosen);
+    if (options.solver.empty()) drop_solver_key(tree, "name");
   }
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
 
   const SolverName* const solver = solver_of(tree);
+  if (solver && solver->fixed_step && !options.accuracy.empty()) {
+    throw UsageError(std::string("--accuracy: the solver ") + solver->name + " has a fixed step; give --step");
+  }
   if (solver && solver->fixed_step && !options.tolerance.empty()) {
     throw UsageError(std::string("--tolerance: the solver ") + solver->name + " has a fixed step; give --step");
   }
@@ -128,6 +147,7 @@ Scene load(const TrialOptions& options, const std::string& file) {
   if (solver && solver->fixed_step && !options.solver.empty() && !has_step) {
     throw UsageError(std::string("--solver: the solver ") + solver->name + " has a fixed step; give --step");
   }
+  if (!options.accuracy.empty()) apply_setting(tree, "solver.accuracy=" + options.accuracy);
   if (!options.tolerance.empty()) apply_setting(tree, "solver.tolerance=" + options.tolerance);
   if (!options.step.empty()) apply_setting(tree, "solver.step=" + options.step);
   return load_scene(tree, file);
@@ -270,9 +290,13 @@ std::function<int()> set_up_trial(CLI::App& app) {
   app.add_option("--solver", options->solver, solver_list() + ";\ndefault: the one that the scene names, else event")
       ->check(CLI::Validator(check_solver, ""))
       ->type_name("NAME");
+  CLI::Option* const accuracy = app.add_option("--accuracy", options->accuracy,
+                                               "Choose solver and tolerance so that x, y, phi at the end are exact to\n"
+                                               "this, dimensionless; with --solver the tolerance alone");
   CLI::Option* const tolerance = app.add_option("--tolerance", options->tolerance,
                                                 "For solvers that choose their steps: the error that a step may have");
   CLI::Option* const step = app.add_option("--step", options->step, "For rk4, semi_implicit and ode: the step, a time");
+  accuracy->check(CLI::Validator(check_accuracy, ""))->type_name("E")->excludes(step)->excludes(tolerance);
   tolerance->check(positive)->type_name("E")->excludes(step);
   step->check(positive)->type_name("H");
   app.add_option("--until", options->until,

@@ -166,9 +166,9 @@ int OdeStep::step(const StepStart& start, Segment& segment, std::array<Slip, kSi
     StepForces forces;
     forces.normal = std::max(0.0, force[0] * p.normal.x + force[1] * p.normal.y);
     forces.tangential = force[0] * p.tangent.x + force[1] * p.tangent.y;
-    // V as ODE has solved for it
+    // V as ODE has solved for it; beside the creep at full friction, so that a part at rest sticks without any force
     const double moved = end.vx * p.tangent.x + end.vy * p.tangent.y + end.omega * p.tangent_lever();
-    forces.sticks = std::abs(moved) <= 2.0 * kHard * std::abs(forces.tangential) + kStill * speed;
+    forces.sticks = std::abs(moved) <= 2.0 * kHard * system.friction * forces.normal + kStill * speed;
     add_first_order_contact(start, site, forces, placed, segment, slip_at_end);
   }
   return 1;

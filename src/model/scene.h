@@ -106,6 +106,8 @@ struct TrialSettings {
 struct SolverSettings {
   std::string name = "event";  ///< one of solver_names.h
   double tolerance = 1.0e-8;
+  /// Of the pose at the end, if that was asked for: name and tolerance were then chosen for it (solver_choice.h).
+  std::optional<double> accuracy;
   std::optional<double> step;    ///< fixed-step solvers, in units of time
   long step_limit = 20'000'000;  ///< more steps than this end the trial as failed
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "model/scaling.h"
+#include "model/solver_choice.h"
 #include "model/solver_names.h"
 #include "model/tree_reader.h"
 
@@ -22,6 +23,7 @@ const std::vector<std::string> contact_words = {"edges", "corners", "walls"};
 
 const NumberRule axial_stiffness_rule = {"1, the unit of stiffness in a dimensionless scene", 1.0, 1.0, true, false};
 const NumberRule tolerance_rule = {"a number > 0 and <= 0.1", 0.0, 0.1, false, false};
+const NumberRule accuracy_rule = {"a number from 1e-9 to 0.1", kFinestAccuracy, kCoarsestAccuracy, true, false};
 
 const char* const only_with_walls = "needs `walls` among the contacts";
 
@@ -61,12 +63,14 @@ class SceneReader {
   double read_amplitude(TreeReader& reader, std::optional<Direction> direction) const;
   void read_trial();
   void read_solver();
+  void choose_solver();
   void scale();
 
   TreeReader::Faults& faults_;
   TreeReader root_;
   std::optional<Units> units_;   ///< none: faulty; then what only one of them has is neither asked for nor refused
   bool contacts_known_ = false;  ///< false: faulty; then what needs walls is not refused
+  bool names_solver_ = false;
   Scene scene_;
 };
 
@@ -90,6 +94,7 @@ Scene SceneReader::read() {
   read_solver();
   root_.refuse_unknown_keys();
   if (faults_.empty() && is(Units::si)) scale();
+  if (faults_.empty()) choose_solver();
   return scene_;
 }
 
@@ -317,6 +322,7 @@ void SceneReader::read_solver() {
   if (chosen) settings.name = names[*chosen];
 
   settings.tolerance = solver.number("tolerance", tolerance_rule).value_or(settings.tolerance);
+  settings.accuracy = solver.number("accuracy", accuracy_rule);
   settings.step = number(solver, "step", positive_number, Quantity::time);
   if (const auto limit = solver.number("step_limit", positive_whole_number))
     settings.step_limit = static_cast<long>(*limit);
@@ -328,10 +334,23 @@ void SceneReader::read_solver() {
     if (!name_known || settings.name != solver_name.name) continue;
     if (solver.has(unused))
       solver.fault(unused, "solver " + settings.name + " does not use it; it has `" + used + "`");
+    else if (solver_name.fixed_step && solver.has("accuracy"))
+      solver.fault("accuracy", "solver " + settings.name + " has no error control; it has `step`");
     else if (solver_name.fixed_step && !solver.has("step"))
       solver.fault("step", "must be a number > 0, the time that each step of solver " + settings.name + " takes");
   }
+  if (solver.has("accuracy") && solver.has("tolerance"))
+    solver.fault("accuracy", "it chooses the tolerance; give one of solver.accuracy and solver.tolerance");
+  names_solver_ = solver.has("name");
   solver.refuse_unknown_keys();
+}
+
+/// What the accuracy leaves open. After scaling: it is a rule for dimensionless scenes.
+void SceneReader::choose_solver() {
+  SolverSettings& settings = scene_.solver;
+  if (!settings.accuracy) return;
+  if (!names_solver_) settings.name = solver_for_accuracy(scene_);
+  settings.tolerance = tolerance_for_accuracy(*settings.accuracy);
 }
 
 void SceneReader::scale() {

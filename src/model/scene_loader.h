@@ -43,7 +43,8 @@ void apply_setting(YAML::Node& tree, const std::string& assignment);
 ///   solver.step_limit       more steps end the trial as failed
 ///   excitation.waveform     sine, square, triangle, or chirp with end_frequency and sweep_time
 ///   excitation.moment       [N m] instead of force or displacement, in si scenes for direction phi
-/// solver.tolerance goes with event, implicit, auto; solver.step with rk4, semi_implicit, ode.
+///   solver.accuracy         of the pose at the end, dimensionless; chooses solver.tolerance, and solver.name if absent
+/// solver.tolerance or solver.accuracy goes with event, implicit, auto; solver.step with rk4, semi_implicit, ode.
 Scene load_scene(const YAML::Node& tree, const std::string& source);
 
 /// read_scene_file + settings + load_scene.

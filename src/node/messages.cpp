@@ -200,6 +200,7 @@ AlignerResult Messages::result(const TrialResult& result, const ros::Time& stamp
   message.solver = result.solver_name;
   message.tolerance = result.solver_tolerance;
   message.step = result.solver_step * units_.time;
+  message.accuracy = result.solver_accuracy;
   message.steps = static_cast<std::uint64_t>(result.counts.steps);
   message.rejected = static_cast<std::uint64_t>(result.counts.rejected);
   message.rhs_evaluations = static_cast<std::uint64_t>(result.counts.rhs_evaluations);

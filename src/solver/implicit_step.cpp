@@ -26,6 +26,17 @@ constexpr int kForget = 16;
 /// The first step after a jump of the forces is tried with so many times the last such step.
 constexpr double kRestartGrowth = 2.0;
 
+/// Longest step in radians of the fastest excitation: where all that moves is stiff, nothing but N shows that a longer
+/// one is not resolved, and the error estimate filters it out.
+constexpr double kLongestDrive = 1.5;
+
+double longest_drive_step(const DriveForms& drives) {
+  double fastest = 0.0;
+  for (int i = 0; i < drives.count; ++i)
+    fastest = std::max(fastest, std::abs(drives.form[static_cast<std::size_t>(i)].frequency));
+  return fastest > 0.0 ? kLongestDrive / fastest : std::numeric_limits<double>::infinity();
+}
+
 Load3 drive_at(const DriveForms& drives, double t) {
   Load3 load;
   for (int i = 0; i < drives.count; ++i) {
@@ -252,6 +263,7 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, double l
   contacts_ = &segment.contacts;
   evaluate(start, 0.0, start_forces_, counts);
   if (++steps_ % kForget == 0) couples_ = false;
+  longest = std::min(longest, longest_drive_step(drives));
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
   const double shortest = kShortest * longest;
   while (h > shortest) {

@@ -28,6 +28,7 @@ TrialResult run(const Scene& scene, const SimulationOptions& options) {
 
 Scene with_solver(Scene scene, const std::string& name, double setting, bool fixed_step) {
   scene.solver.name = name;
+  scene.solver.accuracy.reset();
   if (fixed_step)
     scene.solver.step = setting;
   else

@@ -68,6 +68,7 @@ struct TrialResult {
   std::string solver_name;
   double solver_tolerance = 0.0;  ///< 0 for fixed-step solvers
   double solver_step = 0.0;       ///< 0 for error-controlled solvers
+  double solver_accuracy = 0.0;   ///< that was asked for; 0: none
   SolverCounts counts;
   double cpu_seconds = 0.0;
 };

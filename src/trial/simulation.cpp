@@ -105,6 +105,7 @@ class Simulation::Impl {
       r.solver_step = *scene_.solver.step;
     else
       r.solver_tolerance = scene_.solver.tolerance;
+    r.solver_accuracy = scene_.solver.accuracy.value_or(0.0);
     r.counts = solver_->counts();
     r.cpu_seconds = ended_ ? cpu_seconds_ : cpu_now() - cpu_start_;
     return r;

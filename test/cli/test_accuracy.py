@@ -36,6 +36,14 @@ class AccuracyTest(AlignTestCase):
     def test_ends_with_advice(self):
         text, _ = self.study("--solvers", "event")
         self.assertIn("For an error of 1e-06 use event with a tolerance of", text)
+        self.assertRegex(text, r"solver: {accuracy: 1e-06} picks event with a tolerance of 1.0e-08: error \S+, \d+ us")
+
+    def test_studies_a_part_that_only_goes_up_and_down(self):
+        # all of its motion in contact is stiff
+        text, rows = self.study("--solvers", "event,implicit", "--set", "part.inertia=null")
+        self.assertLess(float(rows[0]["reference_agreement"]), 1e-9)
+        process = self.align("accuracy", "central", "--solvers", "event")
+        self.assertEqual(process.returncode, 0, process.stderr)
 
     def test_refusals(self):
         self.assert_refused(["accuracy", self.scene(), "--solvers", "magic"], "magic", "event", "ode")

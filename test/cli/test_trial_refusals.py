@@ -134,6 +134,15 @@ class UsageRefusalTest(AlignTestCase):
     def test_tolerance_of_a_fixed_step_solver(self):
         self.refuse(["--solver", "rk4", "--tolerance", "1e-6"], "--tolerance", "--step")
 
+    def test_accuracy(self):
+        for value in ("0", "-1e-6", "nan", "inf", "1", "1e-12", "", "x"):
+            with self.subTest(value=value):
+                self.refuse(["--accuracy", value], "--accuracy")
+        self.refuse(["--accuracy", "1e-6", "--tolerance", "1e-6"], "--accuracy", "--tolerance")
+        self.refuse(["--accuracy", "1e-6", "--step", "1e-3"], "--accuracy", "--step")
+        self.refuse(["--accuracy", "1e-6", "--solver", "rk4"], "--accuracy", "rk4", "--step")
+        self.refuse(["--accuracy", "1e-6", "--set", "solver.tolerance=1e-6"], "solver.accuracy", "solver.tolerance")
+
     def test_step_and_tolerance(self):
         self.refuse(["--step", "1e-3", "--tolerance", "1e-6"], "--step", "--tolerance")
 

@@ -210,6 +210,17 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"solver={name: rk4, tolerance: 0.1}", "solver.tolerance: 0.1", "does not use it"},
                       Mistake{"solver={name: rk4, step: 0}", "solver.step: 0", "> 0"},
                       Mistake{"solver={name: ode}", "solver.step: missing", "each step of solver ode"},
+                      Mistake{"solver.accuracy=1e-6", "solver.accuracy: 1e-6", "one of"},
+                      Mistake{"solver={accuracy: 1e-6, step: 0.1}", "solver.step: 0.1", "does not use it"},
+                      Mistake{"solver={name: rk4, accuracy: 1e-6}", "solver.accuracy: 1e-6", "no error control"},
+                      Mistake{"solver={name: ode, accuracy: 1e-6, step: 1e-3}", "solver.accuracy: 1e-6", "`step`"},
+                      Mistake{"solver={accuracy: 0}", "solver.accuracy: 0", "from 1e-9 to 0.1"},
+                      Mistake{"solver={accuracy: -1e-6}", "solver.accuracy: -1e-6", "from 1e-9 to 0.1"},
+                      Mistake{"solver={accuracy: .nan}", "solver.accuracy: .nan", "from 1e-9 to 0.1"},
+                      Mistake{"solver={accuracy: .inf}", "solver.accuracy: .inf", "from 1e-9 to 0.1"},
+                      Mistake{"solver={accuracy: 1}", "solver.accuracy: 1", "from 1e-9 to 0.1"},
+                      Mistake{"solver={accuracy: 1e-12}", "solver.accuracy: 1e-12", "from 1e-9 to 0.1"},
+                      Mistake{"solver={accuracy: high}", "solver.accuracy: high", "from 1e-9 to 0.1"},
                       Mistake{"solver.step_limit=1.5", "solver.step_limit: 1.5", "whole number"}));
 
 TEST(Refusals, DepthsNeedWalls) {

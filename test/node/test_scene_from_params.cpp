@@ -55,6 +55,16 @@ TEST(SceneFromParams, TypesAreKept) {
   EXPECT_EQ(to_yaml(text).as<double>(), 1e4) << "PyYAML takes this number for text";
 }
 
+TEST(SceneFromParams, AccuracyChoosesTheSolver) {
+  XmlRpcValue params = to_params(read_scene_file(small_scene::path));
+  XmlRpcValue solver;
+  solver["accuracy"] = 1e-6;
+  params["solver"] = solver;
+  const Scene scene = load_scene(to_yaml(params), "/aligner/scene");
+  EXPECT_EQ(scene.solver.accuracy, 1e-6);
+  EXPECT_EQ(scene.solver.tolerance, 1e-8);
+}
+
 TEST(SceneFromParams, NanAndInfinityReachTheLoaderAndAreRefused) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()}) {

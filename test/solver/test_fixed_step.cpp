@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "../support/fixed_step.h"
-#include "../support/mirror.h"
 #include "../support/random_scenes.h"
 #include "mechanics/contact_frame.h"
 #include "mechanics/system.h"
-#include "model/scene_loader.h"
 #include "trial/make_solver.h"
 #include "trial/sampler.h"
 
@@ -19,7 +17,6 @@ namespace vibratory_alignment {
 namespace {
 
 using test::distance;
-using test::mirrored;
 using test::run;
 using test::scene_of;
 using test::with_event_solver;
@@ -93,27 +90,6 @@ TEST_P(FixedStep, a_contact_series_starts_and_ends_where_the_states_say) {
   EXPECT_GT(seen, 200);
 }
 
-// N >= 0 and |T| <= f N of what is reported, everywhere in the step. (ode: test/engine_ode)
-TEST_P(FixedStep, forces_stay_in_the_friction_cone) {
-  if (GetParam() == "ode") return;
-  for (unsigned seed = 1; seed <= 40; ++seed) {
-    Scene s = with_solver(test::random_scene(seed), GetParam(), 1e-3);
-    s.trial.time_limit = 2.0;
-    const double f = s.friction ? s.friction->coefficient : 0.0;
-    run(s, [&](const Segment& g) {
-      for (int i = 0; i < g.loaded_count; ++i) {
-        const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
-        for (const double share : {0.0, 0.4, 1.0}) {
-          const double n = value_at(contact.normal_force, g.order, share * g.duration);
-          const double t = value_at(contact.tangential_force, g.order, share * g.duration);
-          EXPECT_GE(n, -1e-13 * contact.normal_force[0]) << "seed " << seed;
-          EXPECT_LE(std::abs(t), f * n + 1e-12 * contact.normal_force[0]) << "seed " << seed;
-        }
-      }
-    });
-  }
-}
-
 // The forces that are reported are those that move the part: momentum, step by step. They are constant in a step of the
 // methods of first order, with the dampers at its end, the gripper's springs at its start (ode: at its end).
 TEST_P(FixedStep, reported_forces_move_the_part) {
@@ -172,34 +148,6 @@ TEST_P(FixedStep, rest_does_not_depend_on_the_step) {
       const State end = run(with_solver(s, GetParam(), h), {}, 0.5).final_state;
       EXPECT_LT(distance(end, rest), 1e-11) << settings[0] << " step " << h;
     }
-  }
-}
-
-TEST_P(FixedStep, mirrored_scenes_give_mirrored_motions) {
-  for (unsigned seed = 1; seed <= 40; ++seed) {
-    Scene s = with_solver(test::random_scene(seed), GetParam(), 1e-3);
-    s.trial.time_limit = 2.0;
-    const TrialResult right = run(s), left = run(mirrored(s));
-    EXPECT_LT(distance(right.final_state, mirrored(left.final_state)), 1e-9) << "seed " << seed;
-    EXPECT_EQ(right.impacts[0], left.impacts[1]) << "seed " << seed;
-    EXPECT_EQ(right.impacts[2], left.impacts[3]) << "seed " << seed;
-    EXPECT_NEAR(right.peak_force[0], left.peak_force[1], 1e-7 * (1.0 + right.peak_force[0])) << "seed " << seed;
-  }
-}
-
-TEST_P(FixedStep, sampling_changes_nothing) {
-  const Scene s = scene(7e-4);
-  const TrialResult plain = run(s);
-  EXPECT_EQ(distance(run(s).final_state, plain.final_state), 0.0);
-  for (const double interval : {1e-4, 0.013, 0.5}) {
-    Simulation simulation(s);
-    Sampler sampler(simulation, interval, true);
-    Sample sample;
-    while (sampler.next(sample)) {
-    }
-    EXPECT_EQ(distance(simulation.result().final_state, plain.final_state), 0.0);
-    EXPECT_EQ(simulation.result().peak_force, plain.peak_force);
-    EXPECT_EQ(simulation.result().energy->residual, plain.energy->residual);
   }
 }
 
@@ -326,12 +274,6 @@ TEST_P(FixedStep, a_free_oscillation_keeps_or_loses_what_theory_says) {
   EXPECT_NEAR(std::sqrt(squared), expected, 1e-9 * amplitude);
 }
 
-TEST_P(FixedStep, energy_balance_closes_with_the_step) {
-  const double coarse = run(scene(1e-3)).energy->residual, fine = run(scene(1e-4)).energy->residual;
-  EXPECT_LT(coarse, 0.1);
-  EXPECT_LT(fine, 0.25 * coarse);
-}
-
 // Steps far too long for the scene: an outcome in finite numbers or a failure with a reason, never for ever.
 TEST_P(FixedStep, steps_that_are_too_long_come_to_an_end) {
   for (const double h : {0.02, 0.3, 5.0, 1e6})
@@ -380,19 +322,6 @@ TEST(FixedStepNames, a_solver_that_is_not_there_is_refused_with_those_that_are) 
   } catch (const std::invalid_argument& refusal) {
     for (const char* name : {"magic", "event", "rk4", "semi_implicit", "ode"})
       EXPECT_NE(std::string(refusal.what()).find(name), std::string::npos) << refusal.what();
-  }
-}
-
-// Every scene of the package, by every solver, ends as by the solver `event`.
-TEST_P(FixedStep, shipped_scenes_have_the_same_outcome) {
-  for (const char* name : {"central", "fig2", "fig3", "gripper_si", "insertion", "r1", "r1_dry"}) {
-    const std::string file = std::string(SCENE_DIR) + "/" + name + ".yaml";
-    const Scene s = load_scene(read_scene_file(file), file);
-    const TrialResult event = run(s), result = run(with_solver(s, GetParam(), 2e-4));
-    EXPECT_EQ(result.outcome, event.outcome) << name << " " << result.failure;
-    EXPECT_EQ(result.mode, event.mode) << name;
-    if (!event.aligned_time || !result.aligned_time) continue;
-    EXPECT_NEAR(*result.aligned_time, *event.aligned_time, 0.1 * *event.aligned_time) << name;
   }
 }
 

@@ -1,4 +1,4 @@
-// The solvers `implicit` and `auto`: the same answers as `event` and the reference integrator, at a cost that does not
+// The solvers `implicit` and `auto` on stiff bases: the same answers as `event`, at a cost that does not
 // depend on the stiffness of a base that the part stays in contact with.
 #include <gtest/gtest.h>
 
@@ -12,34 +12,10 @@
 namespace vibratory_alignment {
 namespace {
 
-using reference::ReferenceCase;
-
 TrialResult run_with(Scene scene, const std::string& solver, double tolerance) {
   scene.solver.name = solver;
   scene.solver.tolerance = tolerance;
   return test::run(scene, {}, scene.trial.time_limit);
-}
-
-class ImplicitOn : public testing::TestWithParam<ReferenceCase> {};
-INSTANTIATE_TEST_SUITE_P(known, ImplicitOn, testing::ValuesIn(reference::referenceCases()),
-                         [](const auto& info) { return info.param.name; });
-
-// A tolerance per step, amplified by the impacts after it.
-TEST_P(ImplicitOn, end_state_is_that_of_the_reference) {
-  const ReferenceCase& c = GetParam();
-  const double growth = std::max(1.0, static_cast<double>(c.amplification));
-  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-    const TrialResult result = run_with(test::scene_of_reference(c), "implicit", tolerance);
-    EXPECT_LT(test::distance(result.final_state, c.end), 10.0 * growth * tolerance) << tolerance;
-    for (std::size_t i = 0; i < kSpotCount; ++i) EXPECT_EQ(result.impacts[i], c.touches[i]) << "spot " << i;
-  }
-}
-
-TEST_P(ImplicitOn, automatic_choice_gives_the_same_answer) {
-  const ReferenceCase& c = GetParam();
-  const double growth = std::max(1.0, static_cast<double>(c.amplification));
-  const TrialResult result = run_with(test::scene_of_reference(c), "auto", 1e-8);
-  EXPECT_LT(test::distance(result.final_state, c.end), 10.0 * growth * 1e-8);
 }
 
 /// Pressed so hard that it never leaves the base, shaken across and along: sticks and slips twenty times.
@@ -94,7 +70,9 @@ TEST(Implicit, follows_the_creep_in_a_thin_layer_of_friction) {
     const State series = run_with(scene, "event", 1e-10).final_state;
     const TrialResult implicit = run_with(scene, "implicit", 1e-8);
     EXPECT_LT(test::distance(implicit.final_state, series), 1e-6) << eps;
-    if (steps > 0) EXPECT_LT(implicit.counts.steps, 2 * steps) << eps;
+    if (steps > 0) {
+      EXPECT_LT(implicit.counts.steps, 2 * steps) << eps;
+    }
     steps = implicit.counts.steps;
   }
 }

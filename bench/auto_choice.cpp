@@ -1,0 +1,143 @@
+// Whether the solver `auto` chooses well: its CPU time beside the better one of `event` and `implicit`, as a table.
+//
+// Scenes: the files named, and one part in lasting contact over stiffness and damping ratio of the base: shaken across
+// and along, it sticks and slips twenty times and never leaves the base. The three solvers take turns, so that what
+// else the computer does meets all of them alike; a time is the median of the turns.
+// `> step limit`: more than a million steps. **: the ratio is above 1.3.
+// Usage: auto_choice TOLERANCE SCENE_FILE ...
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "model/scene_loader.h"
+#include "trial/simulation.h"
+
+namespace va = vibratory_alignment;
+
+namespace {
+
+constexpr std::array<const char*, 3> kSolvers = {"event", "implicit", "auto"};
+constexpr double kAllowedRatio = 1.3;
+
+/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these.
+constexpr double kSecondsPerScene = 2.0;
+constexpr std::size_t kFewestTurns = 5, kMostTurns = 101;
+
+/// A solver that has taken this many times as long as the best one is left out of further turns.
+constexpr double kHopeless = 5.0;
+
+constexpr char kLastingContact[] = R"(
+part: {half_width: 0.67, base_distance: 0.93, inertia: 0.17}
+slot: {clearance: 0.083}
+gripper:
+  stiffness: {x: 0.071, phi: 11.0}
+  damping: {x: 0.013, y: 0.029, phi: 0.31}
+  anchor: {x: 0.23, phi: 0.007}
+  pressing_force: 3.0
+base: {stiffness: {y: 1.0e4}}
+contacts: [edges]
+friction: {coefficient: 0.2}
+excitation: {amplitude: 1.0, frequency: 19.0}
+initial: {x: 0.21}
+trial: {time_limit: 5.0}
+solver: {step_limit: 1000000}
+)";
+
+struct Measured {
+  std::vector<double> seconds;
+  std::string failure;
+  long steps = 0;
+
+  double median() const {
+    std::vector<double> sorted = seconds;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[sorted.size() / 2];
+  }
+  bool usable() const { return failure.empty() && !seconds.empty(); }
+};
+
+void take_turn(const va::Scene& scene, const char* solver, double tolerance, Measured& measured) {
+  va::Scene s = scene;
+  s.solver.name = solver;
+  s.solver.tolerance = tolerance;
+  s.solver.step.reset();
+  va::SimulationOptions options;
+  options.energy = false;
+  va::Simulation simulation(s, options);
+  while (simulation.advance()) {
+  }
+  const va::TrialResult result = simulation.result();
+  measured.failure = result.failure;
+  measured.steps = result.counts.steps;
+  measured.seconds.push_back(result.cpu_seconds);
+}
+
+std::array<Measured, kSolvers.size()> measure(const va::Scene& scene, double tolerance) {
+  std::array<Measured, kSolvers.size()> all;
+  double spent = 0.0;
+  for (std::size_t turn = 0; turn < kFewestTurns || (spent < kSecondsPerScene && turn < kMostTurns); ++turn) {
+    double best = HUGE_VAL;
+    for (const Measured& m : all)
+      if (m.usable()) best = std::min(best, m.median());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Measured& m = all[i];
+      if (turn > 0 && (!m.failure.empty() || m.median() > kHopeless * best)) continue;
+      take_turn(scene, kSolvers[i], tolerance, m);
+      spent += m.seconds.back();
+    }
+  }
+  return all;
+}
+
+/// Prints a row; true when `auto` is as good as it is to be.
+bool report(const std::string& label, const va::Scene& scene, double tolerance) {
+  const auto all = measure(scene, tolerance);
+  std::printf("| %s |", label.c_str());
+  double best = HUGE_VAL;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].usable())
+      std::printf(" %.0f (%ld) |", 1e6 * all[i].median(), all[i].steps);
+    else
+      std::printf(" %s |", all[i].failure.find("step limit") != std::string::npos ? "> step limit" : "failed");
+    if (i < 2 && all[i].usable()) best = std::min(best, all[i].median());
+  }
+  const double ratio = all[2].usable() ? all[2].median() / best : HUGE_VAL;
+  std::printf(" %.2f%s |\n", ratio, ratio > kAllowedRatio ? " **" : "");
+  std::fflush(stdout);
+  return ratio <= kAllowedRatio;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const double tolerance = argc > 1 ? std::atof(argv[1]) : 0.0;
+  if (!(tolerance > 0.0 && tolerance <= 0.1)) {
+    std::fprintf(stderr, "usage: auto_choice TOLERANCE SCENE_FILE ...   (tolerance > 0 and <= 0.1)\n");
+    return 2;
+  }
+  std::printf("CPU time of a trial in us (steps), tolerance %g; ratio: auto to the better of the others\n\n",
+              tolerance);
+  std::printf("| scene | event | implicit | auto | ratio |\n|---|---|---|---|---|\n");
+  int scenes = 0, worse = 0;
+  for (int i = 2; i < argc; ++i) {
+    const va::Scene scene = va::load_scene_file(argv[i]);
+    ++scenes;
+    worse += report(scene.name, scene, tolerance) ? 0 : 1;
+  }
+  for (const double stiffness : {1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10})
+    for (const double damping_ratio : {0.01, 0.1, 1.0, 10.0, 100.0}) {
+      va::Scene scene = va::load_scene(YAML::Load(kLastingContact), "lasting contact");
+      scene.base.stiffness_x = scene.base.stiffness_y = stiffness;
+      scene.base.damping_x = scene.base.damping_y = 2.0 * damping_ratio * std::sqrt(stiffness);
+      char label[64];
+      std::snprintf(label, sizeof label, "k = %.0e, zeta = %g", stiffness, damping_ratio);
+      ++scenes;
+      worse += report(label, scene, tolerance) ? 0 : 1;
+    }
+  std::printf("\n%d of %d above %.1f\n", worse, scenes, kAllowedRatio);
+  return 0;
+}

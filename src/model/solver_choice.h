@@ -1,0 +1,27 @@
+// Solver and tolerance for an accuracy that is asked for: what `solver: {accuracy: E}` means.
+#pragma once
+
+#include "model/scene.h"
+
+namespace vibratory_alignment {
+
+/// Accuracies that can be asked for. Less than the finest is lost in rounding before long.
+inline constexpr double kFinestAccuracy = 1e-9, kCoarsestAccuracy = 0.1;
+
+/// The tolerance is this part of the accuracy: impacts let an error grow.
+inline constexpr double kToleranceShare = 1e-2;
+
+/// `auto` instead of `event` where the base reacts this many times as fast as it is excited.
+inline constexpr double kStiffRatio = 500.0;
+
+/// How many times faster than the fastest excitation the part moves on the base, at most: max(sqrt(k G), h G) over the
+/// largest angular frequency, G = 1/m + (a^2 + b^2)/mu, the mobility of the part's farthest point.
+double contact_rate_ratio(const Scene& scene);
+
+/// The error-controlled solver for a dimensionless scene: `event`, or `auto` on a stiff base (docs/solvers.md).
+const char* solver_for_accuracy(const Scene& scene);
+
+/// The tolerance of event, implicit and auto with which the pose at the end is exact to `accuracy`, dimensionless.
+double tolerance_for_accuracy(double accuracy);
+
+}  // namespace vibratory_alignment

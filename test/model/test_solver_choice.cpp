@@ -1,0 +1,62 @@
+// solver.accuracy: what it chooses, and that the choice depends on the scene as a physical system, not on its units.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "model/scene_loader.h"
+#include "model/solver_choice.h"
+#include "scene_text.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using scene_text::least;
+using scene_text::least_si;
+using scene_text::load;
+
+TEST(SolverChoice, AccuracyChoosesSolverAndTolerance) {
+  for (const char* accuracy : {"0.1", "1e-3", "1e-6", "1e-9"}) {
+    const Scene scene = load(least, {std::string("solver={accuracy: ") + accuracy + "}"});
+    EXPECT_EQ(scene.solver.accuracy, std::stod(accuracy));
+    EXPECT_EQ(scene.solver.tolerance, tolerance_for_accuracy(std::stod(accuracy)));
+    EXPECT_LE(scene.solver.tolerance, 0.1 * std::stod(accuracy));
+    EXPECT_FALSE(scene.solver.step);
+  }
+}
+
+TEST(SolverChoice, ANamedSolverIsKept) {
+  for (const char* name : {"event", "implicit", "auto"}) {
+    const Scene scene = load(least, {std::string("solver={accuracy: 1e-6, name: ") + name + "}"});
+    EXPECT_EQ(scene.solver.name, name);
+    EXPECT_EQ(scene.solver.tolerance, tolerance_for_accuracy(1e-6));
+  }
+}
+
+TEST(SolverChoice, WithoutAccuracyNothingIsChosen) {
+  const Scene scene = load(least, {"base={stiffness: {y: 1e12}}"});
+  EXPECT_EQ(scene.solver.name, "event");
+  EXPECT_FALSE(scene.solver.accuracy);
+}
+
+TEST(SolverChoice, AStiffBaseCallsForAuto) {
+  const auto choice = [](const std::string& base) {
+    return load(least, {"base=" + base, "solver={accuracy: 1e-6}"}).solver.name;
+  };
+  EXPECT_EQ(choice("{stiffness: {y: 1e3}}"), "event");
+  EXPECT_EQ(choice("{stiffness: {y: 1e12}}"), "auto");
+  EXPECT_EQ(choice("{stiffness: {y: 1e3, x: 1e12}}"), "auto");
+  // a strong damper is as stiff
+  EXPECT_EQ(choice("{stiffness: {y: 1e3}, damping: {y: 1e6}}"), "auto");
+}
+
+// sqrt(k/M) over 2 pi f for a part of mass M that does not tilt.
+TEST(SolverChoice, RatioIsThatOfTheFrequencies) {
+  const double k = 4.0e6, mass = 0.25, frequency = 80.0;
+  const Scene scene = load(least_si, {"part.mass=0.25", "base={stiffness: {y: 4.0e6}}", "excitation.frequency=80"});
+  EXPECT_NEAR(contact_rate_ratio(scene) / (std::sqrt(k / mass) / (2.0 * M_PI * frequency)), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
