@@ -1,0 +1,55 @@
+"""The scenes of the hard cases are found by name, and docs/hard_cases.md says of each what the solvers do on it."""
+
+import glob
+import os
+import subprocess
+import sys
+import unittest
+
+from align_test_case import SOURCE_ROOT, AlignTestCase
+
+
+def names():
+    folder = os.path.join(SOURCE_ROOT, "config", "scenes", "hard")
+    return sorted(os.path.splitext(os.path.basename(path))[0] for path in glob.glob(os.path.join(folder, "*.yaml")))
+
+
+class HardScenesTest(AlignTestCase):
+    def test_there_are_some(self):
+        self.assertGreaterEqual(len(names()), 17)
+
+    def test_run_by_name(self):
+        for name in names():
+            with self.subTest(name):
+                report = self.trial("hard/" + name, "--until", "0.001")
+                self.assertEqual(report["scene"], name)
+                self.assertEqual(report["final"]["t"], 0.001)
+
+    def test_are_explained_and_tabulated(self):
+        with open(os.path.join(SOURCE_ROOT, "docs", "hard_cases.md")) as file:
+            text, table = file.read().split("<!-- table -->")[:2]
+        for name in names():
+            with self.subTest(name):
+                self.assertIn("`%s`" % name, text)
+                self.assertIn("`%s`" % name, table)
+
+    def table_row(self, scene):
+        """What scripts/hard_cases says of a scene with one variant: {column: words}."""
+        script = os.path.join(SOURCE_ROOT, "scripts", "hard_cases")
+        command = [sys.executable, script, "--align", self.align_path, "--only", scene]
+        lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                               universal_newlines=True, timeout=120).stdout.splitlines()
+        rows = [[word.strip() for word in line.split("|")[1:-1]] for line in lines if line.startswith("| ")]
+        self.assertEqual(len(rows), 2)
+        return dict(zip(rows[0], rows[1]))
+
+    # closed form: the exact solvers pass, the creep of rk4 does not
+    def test_table_tells_right_from_wrong(self):
+        row = self.table_row("coulomb_oscillator")
+        for solver in ("event", "implicit", "auto"):
+            self.assertTrue(row[solver].startswith("passes"), row)
+        self.assertTrue(row["rk4"].startswith("**off**"), row)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
