@@ -380,7 +380,9 @@ TEST_P(SeveralContacts, do_not_depend_on_the_tolerance) {
   EXPECT_EQ(one.outcome, other.outcome);
   // touches that press no harder than rounding come and go with it
   const double peak = *std::max_element(one.peak_force.begin(), one.peak_force.end());
-  if (peak > 10.0 * rounding_force(loose, one.final_state)) EXPECT_EQ(one.impacts, other.impacts);
+  if (peak > 10.0 * rounding_force(loose, one.final_state)) {
+    EXPECT_EQ(one.impacts, other.impacts);
+  }
   EXPECT_LE(test::distance(one.final_state, other.final_state), 1e-8 + rounding(loose, one.final_state));
 }
 
