@@ -166,7 +166,9 @@ std::optional<Fault> check_segment(const System& system, double tolerance, const
 
 double energy_noise(const System& system, const Segment& segment) {
   const double h = segment.duration, depth_noise = kDigits * length_of(system, segment.begin);
-  double noise = 0.0;
+  const State& q = segment.begin;
+  double noise = depth_noise * (system.x.stiffness * std::abs(q.x - system.x.anchor) +
+                                system.y.stiffness * std::abs(q.y - system.y.anchor));
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
