@@ -12,6 +12,10 @@ if [ -n "${CONDA_PREFIX:-}" ]; then unset CC CXX CFLAGS CXXFLAGS CPPFLAGS LDFLAG
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 noetic=/opt/ros/noetic
+# Where it is built, with which options of CMake; a script may say otherwise before it builds.
+build=$root/build
+devel=$root/devel
+cmake_options=()
 cli11_url=https://github.com/CLIUtils/CLI11/releases/download/v2.1.2/CLI11.hpp
 
 build_packages=(
@@ -133,25 +137,25 @@ parallel_jobs() {
   printf '%s\n' $((processors > 0 ? processors : 1))
 }
 
-# Configures and builds the given targets in build/, with the devel space in devel/, and enters that space.
+# Configures and builds the given targets in $build, with the devel space in $devel, and enters that space.
 build_targets() {
-  local cache="$root/build/CMakeCache.txt" options=()
-  say "Building in build/ and devel/ ($*; some minutes the first time)"
+  local cache="$build/CMakeCache.txt" options=("${cmake_options[@]}")
+  say "Building in ${build#"$root"/}/ and ${devel#"$root"/}/ ($*; some minutes the first time)"
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
-    note "build/ is that of another directory: starting anew"
-    rm -rf "$root/build" "$root/devel"
+    note "${build#"$root"/}/ is that of another directory: starting anew"
+    rm -rf "$build" "$devel"
   fi
   if on_noetic; then source_setup "$noetic/setup.bash"; fi
   if [ -e "$root/build/cli11" ]; then options+=("-DCLI11_INCLUDE_DIR=$root/build/cli11"); fi
-  mkdir -p "$root/build/logs"
-  run_logged "$root/build/logs/configure.log" cmake -S "$root" -B "$root/build" -DCATKIN_DEVEL_PREFIX="$root/devel" \
+  mkdir -p "$build/logs"
+  run_logged "$build/logs/configure.log" cmake -S "$root" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" \
     -DCMAKE_INSTALL_PREFIX="$root/install" "${options[@]}"
-  local log="$root/build/logs/build.log"
-  if ! cmake --build "$root/build" -j "$(parallel_jobs)" --target "$@" 2>&1 | tee "$log" | show_progress; then
+  local log="$build/logs/build.log"
+  if ! cmake --build "$build" -j "$(parallel_jobs)" --target "$@" 2>&1 | tee "$log" | show_progress; then
     grep -A 8 -m 5 -E 'error|Error' "$log" >&2 || true
     die "the build failed (see above, and all of it in ${log#"$root"/})"
   fi
-  source_setup "$root/devel/setup.bash"
+  source_setup "$devel/setup.bash"
   use_local_ros
 }
 
@@ -168,9 +172,9 @@ run_logged() {
   fi
 }
 
-# ROS on this computer alone, whatever its name resolves to; its logs go below build/.
+# ROS on this computer alone, whatever its name resolves to; its logs go below $build.
 use_local_ros() {
-  export ROS_IP=127.0.0.1 ROS_HOME="$root/build/ros_home" ROS_LOG_DIR="$root/build/ros_home/log"
+  export ROS_IP=127.0.0.1 ROS_HOME="$build/ros_home" ROS_LOG_DIR="$build/ros_home/log"
   unset ROS_HOSTNAME
   mkdir -p "$ROS_LOG_DIR"
 }

@@ -82,7 +82,7 @@ void run_fixed_step(const std::string& name, const Problem& problem) {
     va::SolverSettings settings;
     settings.name = name;
     settings.step = problem.end_time / static_cast<double>(steps);
-    va::peers::report("own_" + name, problem.name, settings.step, [&] { return integrate(problem, settings); });
+    va::peers::report("own_" + name, problem.name, *settings.step, [&] { return integrate(problem, settings); });
   }
 }
 

@@ -34,8 +34,9 @@ class DriveSettings {
   std::vector<Excitation> scene_excitations_;
   double force_unit_ = 1.0, amplitude_unit_ = 1.0, frequency_unit_ = 1.0;  ///< 1 dimensionless in the scene's units
   std::optional<double> scene_pressing_force_;
-  AlignerConfig scene_config_;  ///< what the scene says
-  AlignerConfig config_;        ///< what holds now
+  // the generated constructor leaves some members without a value
+  AlignerConfig scene_config_ = AlignerConfig::__getDefault__();  ///< what the scene says
+  AlignerConfig config_ = AlignerConfig::__getDefault__();        ///< what holds now
 };
 
 }  // namespace vibratory_alignment

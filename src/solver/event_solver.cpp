@@ -105,7 +105,12 @@ System saturated(System system, double tolerance) {
 }
 
 /// The last coefficients hold what any of the others is not.
-bool is_finite(const Segment& s) { return std::isfinite(s.vx[s.order] + s.vy[s.order] + s.omega[s.order]); }
+bool is_finite(const Segment& s) {
+  double sum = s.vx[s.order] + s.vy[s.order] + s.omega[s.order];
+  for (int i = 0; i < s.loaded_count; ++i)
+    sum += s.loaded[i].normal_force[s.order] + s.loaded[i].tangential_force[s.order];
+  return std::isfinite(sum);
+}
 
 bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
 

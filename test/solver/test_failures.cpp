@@ -104,6 +104,30 @@ TEST(FailuresDeathTest, what_is_not_a_number_fails) {
   }
 }
 
+// The tanh law changes at a rate of 1e21 here: powers of it overflow in T, one order before they do in the velocities.
+TEST(Failures, a_friction_layer_too_narrow_for_the_numbers_gives_no_wrong_force) {
+  const Scene scene = scene_of(R"(
+part: {half_width: 1, base_distance: 800, inertia: 1000}
+slot: {clearance: 1, depth: 1}
+gripper: {anchor: {x: 0, y: 1, phi: 0}}
+base: {stiffness: {x: 1.0e+8, y: 1}}
+contacts: [walls]
+friction: {coefficient: 1, regularization: 1.0e-5}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0, y: 1, phi: 0.7}
+trial: {time_limit: 0.04}
+solver: {tolerance: 1.0e-11, step_limit: 4000}
+)");
+  const TrialResult result = run(scene, [](const Segment& g) {
+    for (int i = 0; i < g.loaded_count; ++i) {
+      const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
+      ASSERT_TRUE(std::isfinite(value_at(contact.tangential_force, g.order, g.duration)));
+      ASSERT_TRUE(std::isfinite(value_at(contact.normal_force, g.order, g.duration)));
+    }
+  });
+  EXPECT_TRUE(std::isfinite(result.energy->residual));
+}
+
 TEST(Failures, unknown_solvers_and_too_many_excitations_are_refused) {
   Scene s = scene_of(test::plain);
   s.solver.name = "crystal_ball";

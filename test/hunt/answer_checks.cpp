@@ -1,0 +1,102 @@
+#include "answer_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "../support/mirror.h"
+#include "mechanics/system.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+Fault fault(Invariant invariant, const std::string& what, double value) {
+  std::ostringstream text;
+  text.precision(10);
+  text << what << " = " << value;
+  return {invariant, text.str()};
+}
+
+/// Energies that the ledger adds up: their last digits are its own.
+double energy_terms(const Scene& scene, const EnergyLedger& e) {
+  return std::abs(e.initial) + std::abs(e.final) + e.exchanged + std::abs(scene.weight * scene.part.base_distance);
+}
+
+double difference(const System& s, const Landmark& a, const Landmark& b) {
+  const State &p = a.state, &q = b.state;
+  const double size = std::abs(p.x) + std::abs(p.y) + s.half_width + s.base_distance;
+  const double speed = std::abs(p.vx) + std::abs(p.vy) + std::abs(p.omega) * (s.half_width + s.base_distance) + 1e-3;
+  const double place = std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.phi - q.phi) * s.half_width});
+  const double rate =
+      std::max({std::abs(p.vx - q.vx), std::abs(p.vy - q.vy), std::abs(p.omega - q.omega) * s.half_width});
+  return std::max({place / size, rate / speed, std::abs(a.time - b.time)});
+}
+
+}  // namespace
+
+std::string refusal(const TrialResult& result) {
+  if (result.outcome != Outcome::failed) return {};
+  const std::string step_limit = "step limit";
+  if (result.failure.rfind(step_limit, 0) == 0) return step_limit;
+  return result.failure.substr(0, result.failure.find(" at time"));
+}
+
+std::optional<Fault> check_ending(const TrialResult& r, Range range) {
+  if (r.outcome == Outcome::running) return Fault{Invariant::ends, "no outcome"};
+  const std::string reason = refusal(r);
+  if (range == Range::ordinary && !reason.empty() && reason != "step limit") return Fault{Invariant::ends, r.failure};
+  return {};
+}
+
+std::optional<Fault> check_finite(const TrialResult& r) {
+  const State& q = r.final_state;
+  double sum = r.final_time + q.x + q.y + q.phi + q.vx + q.vy + q.omega;
+  for (const double peak : r.peak_force) sum += peak;
+  if (r.energy) sum += r.energy->final + r.energy->exchanged + r.energy->residual;
+  if (!std::isfinite(sum)) return fault(Invariant::finite, "result", sum);
+  return {};
+}
+
+std::optional<Fault> check_energy(const Scene& scene, const Trace& trace) {
+  const EnergyLedger& e = *trace.result.energy;
+  const double noise = 1e-12 * energy_terms(scene, e) + trace.energy_noise;
+  const double allowed = 10.0 * scene.solver.tolerance * e.exchanged + noise;
+  const double losses = e.gripper_loss + e.base_loss + e.friction_loss + e.release_loss;
+  const double balance = e.final - e.initial - (e.excitation_work + e.turning - losses);
+  if (!(std::abs(balance) <= allowed))
+    return fault(Invariant::ledger_closes, "balance / exchanged", balance / e.exchanged);
+  for (const auto& [name, loss] : {std::pair<const char*, double>{"gripper loss", e.gripper_loss},
+                                   {"base loss", e.base_loss},
+                                   {"friction loss", e.friction_loss}})
+    if (loss < -allowed) return fault(Invariant::losses, name, loss);
+  return {};
+}
+
+std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b) {
+  if (digest(a) == digest(b)) return {};
+  return fault(Invariant::output_rate, "change of the final x", b.final_state.x - a.final_state.x);
+}
+
+double difference(const System& system, const Trace& a, const Trace& b) {
+  const bool refused = a.result.outcome == Outcome::failed || b.result.outcome == Outcome::failed;
+  if (!refused && (a.touches.size() != b.touches.size() || a.all_touches != b.all_touches)) return INFINITY;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < std::min(a.touches.size(), b.touches.size()); ++i)
+    largest = std::max(largest, difference(system, a.touches[i], b.touches[i]));
+  if (refused || !a.all_touches) return largest;
+  if (a.result.outcome != b.result.outcome) return INFINITY;
+  return std::max(largest, difference(system, {a.result.final_time, a.result.final_state},
+                                      {b.result.final_time, b.result.final_state}));
+}
+
+Trace mirrored(Trace trace) {
+  for (Landmark& touch : trace.touches) touch.state = test::mirrored(touch.state);
+  trace.result.final_state = test::mirrored(trace.result.final_state);
+  std::swap(trace.result.impacts[0], trace.result.impacts[1]);
+  std::swap(trace.result.impacts[2], trace.result.impacts[3]);
+  return trace;
+}
+
+}  // namespace vibratory_alignment::hunt

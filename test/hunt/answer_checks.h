@@ -1,0 +1,36 @@
+// The invariants of a whole trial: how it ends, its energy ledger, and answers that must be alike.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fault.h"
+#include "random_scene.h"
+#include "trace.h"
+
+namespace vibratory_alignment::hunt {
+
+/// Why the solver gave up, without time and place; empty if it did not. It says so, with a reason: that is a refusal.
+/// In scenes far beyond what is physical it may; in ordinary ones only for the step limit, which the hunt sets low.
+std::string refusal(const TrialResult& result);
+
+/// It ended with an outcome, one that the range allows.
+std::optional<Fault> check_ending(const TrialResult& result, Range range);
+
+/// The result holds no NaN and nothing infinite.
+std::optional<Fault> check_finite(const TrialResult& result);
+
+/// The ledger closes to ten times the solver's tolerance, and every loss is one.
+std::optional<Fault> check_energy(const Scene& scene, const Trace& trace);
+
+/// Two answers are the same to the last bit.
+std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b);
+
+/// Largest difference of two traces over touches and end, relative to the sizes of the motion and its speeds; infinite
+/// where one of them touches or ends otherwise.
+double difference(const System& system, const Trace& a, const Trace& b);
+
+/// The trace of the mirrored scene as it should look.
+Trace mirrored(Trace trace);
+
+}  // namespace vibratory_alignment::hunt

@@ -1,0 +1,184 @@
+#include "segment_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "../support/touch_point.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+using test::Touch;
+using test::touch_point;
+using test::TouchPoint;
+
+constexpr double kDigits = 1e-13;
+constexpr double kSlipErrors = 1e3;        ///< V also holds what T was wrong by in the segments before
+constexpr double kForceDigits = 1e-15;     ///< forces that are in balance
+constexpr double kFastestRecovery = 1e12;  ///< a base that recovers at this rate is taken to do so at once
+constexpr double kSeriesPoints[] = {0.0, 0.13, 0.5, 0.87, 1.0};
+constexpr int kFlightPoints = 20;  ///< a leap in flight is long
+
+/// Sum of the absolute terms of a series: what its value is rounded against.
+double magnitude_at(const Series& series, int order, double t) {
+  double value = 0.0;
+  for (int k = order; k >= 0; --k) value = value * t + std::abs(series[static_cast<std::size_t>(k)]);
+  return value;
+}
+
+/// Lengths that a depth is the difference of.
+double length_of(const System& s, const State& q) {
+  return std::abs(q.x) + std::abs(q.y) + s.half_width + s.base_distance + s.slot_half_width +
+         (s.has_floor ? s.floor_depth : 0.0);
+}
+
+/// Speeds that a rate is the difference of: those at `q` and those that the segment's series are sums of.
+double speed_of(const System& s, const Segment& g, const State& q) {
+  const auto size = [&](const Series& v, double now) { return std::abs(now) + magnitude_at(v, g.order, g.duration); };
+  return size(g.vx, q.vx) + size(g.vy, q.vy) + size(g.omega, q.omega) * length_of(s, q);
+}
+
+/// Largest acceleration of the contact point for a force of one.
+double mobility(const System& s, const TouchPoint& p) {
+  return s.x.inverse_inertia + s.y.inverse_inertia + (p.rx * p.rx + p.ry * p.ry) * s.phi.inverse_inertia;
+}
+
+class SegmentCheck {
+ public:
+  SegmentCheck(const System& system, double tolerance, const Segment& segment)
+      : system_(system), tolerance_(tolerance), segment_(segment) {}
+
+  std::optional<Fault> at(double t) {
+    t_ = t;
+    state_ = t >= segment_.duration ? segment_.end : state_at(segment_, t);
+    const State& q = state_;
+    if (!std::isfinite(q.x + q.y + q.phi + q.vx + q.vy + q.omega)) return fault(Invariant::finite, "state", q.x);
+    for (int i = 0; i < segment_.loaded_count; ++i)
+      if (auto found = loaded(segment_.loaded[static_cast<std::size_t>(i)])) return found;
+    for (int site = 0; site < kSiteCount; ++site)
+      if (auto found = outside(static_cast<Site>(site))) return found;
+    return {};
+  }
+
+ private:
+  Fault fault(Invariant invariant, const char* what, double value) const {
+    std::ostringstream text;
+    text.precision(10);
+    text << what << " = " << value << " at t = " << segment_.start.value() << " + " << t_;
+    return {invariant, text.str()};
+  }
+
+  std::optional<Fault> loaded(const ContactSeries& contact) const {
+    const int order = segment_.order;
+    const ContactState& site = segment_.contacts[static_cast<std::size_t>(contact.site)];
+    const TouchPoint p = touch_point(system_, state_, {contact.site, site.face});
+    const double n = value_at(contact.normal_force, order, t_), t = value_at(contact.tangential_force, order, t_);
+    if (!std::isfinite(n) || !std::isfinite(t)) return fault(Invariant::finite, "contact force", n + t);
+
+    const double length = length_of(system_, state_), speed = speed_of(system_, segment_, state_),
+                 digits = kDigits + kCut * tolerance_;
+    const double n_terms = magnitude_at(contact.normal_force, order, t_);
+    const double n_noise =
+        p.stiffness * digits * length + p.damping * digits * speed + (kDigits + tolerance_) * n_terms;
+    if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
+    if (std::abs(n - p.normal_force) > 10.0 * n_noise)
+      return fault(Invariant::base_pushes, "N - (k d + h d')", n - p.normal_force);
+
+    // V is wrong by its digits and by what wrong forces make of it in the segment
+    const double t_terms = magnitude_at(contact.tangential_force, order, t_),
+                 limit = system_.friction * std::max(n, 0.0);
+    double t_noise = system_.friction * n_noise + (kDigits + tolerance_) * t_terms;
+    const double slip_noise =
+        kSlipErrors * (digits + tolerance_) * speed + mobility(system_, p) * (n_noise + t_noise) * segment_.duration;
+    if (system_.regularization > 0.0) t_noise += limit * slip_noise / system_.regularization;
+    if (std::abs(t) > limit + t_noise) return fault(Invariant::friction_cone, "|T| - f N", std::abs(t) - limit);
+    // judged by the energy that it feeds in, for a last digit of V may stay where an event has ended a segment at once
+    const double power_noise = std::abs(t) * slip_noise + t_noise * std::abs(p.slip);
+    if ((t * p.slip - power_noise) * segment_.duration > energy_noise(system_, segment_))
+      return fault(Invariant::friction_brakes, "T V", t * p.slip);
+    return {};
+  }
+
+  /// How deep the site's point is below all of `faces`, which bound the other body.
+  double depth_inside(Site site, std::initializer_list<Face> faces) const {
+    double depth = INFINITY;
+    for (const Face face : faces) depth = std::min(depth, touch_point(system_, state_, {site, face}).depth);
+    return depth;
+  }
+
+  double depth_inside(Site site) const {
+    switch (site) {
+      case Site::a1:
+      case Site::a2:
+        if (!system_.contacts.edges) return -INFINITY;
+        return depth_inside(site, {Face::bottom, Face::right_side, Face::left_side});
+      case Site::b1:
+      case Site::b2:
+        if (!system_.contacts.corners && !system_.contacts.walls) return -INFINITY;
+        return std::max(depth_inside(site, {Face::top, Face::right_wall}),
+                        depth_inside(site, {Face::top, Face::left_wall}));
+      default: break;
+    }
+    const bool within_slot =
+        depth_inside(site, {Face::right_wall}) < 0.0 && depth_inside(site, {Face::left_wall}) < 0.0;
+    if (!system_.has_floor || !within_slot) return -INFINITY;
+    return depth_inside(site, {Face::floor});
+  }
+
+  /// A point that is said to be outside, is.
+  std::optional<Fault> outside(Site site) const {
+    const ContactState& contact = segment_.contacts[static_cast<std::size_t>(site)];
+    if (contact.phase != Phase::outside) return {};
+    const double surface = contact.base_deformation * std::exp(-contact.recovery_rate * t_);  // of a base that recovers
+    const double depth = depth_inside(site) - surface;
+    const double at_once = system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0;
+    if (depth > (kDigits + kCut * tolerance_) * length_of(system_, state_) + at_once)
+      return fault(Invariant::no_passing, "depth of a point that is outside", depth);
+    return {};
+  }
+
+  static constexpr double kCut = 1e-2;  ///< part of the tolerance that a step may be wrong by
+
+  const System& system_;
+  double tolerance_;
+  const Segment& segment_;
+  double t_ = 0.0;
+  State state_;
+};
+
+}  // namespace
+
+std::optional<Fault> check_segment(const System& system, double tolerance, const Segment& segment) {
+  SegmentCheck check(system, tolerance, segment);
+  if (segment.flight != nullptr) {
+    for (int i = 0; i <= kFlightPoints; ++i)
+      if (auto found = check.at(segment.duration * i / kFlightPoints)) return found;
+    return {};
+  }
+  for (const double share : kSeriesPoints) {
+    if (auto found = check.at(share * segment.duration)) return found;
+    if (segment.duration == 0.0) break;
+  }
+  return {};
+}
+
+double energy_noise(const System& system, const Segment& segment) {
+  const double h = segment.duration, depth_noise = kDigits * length_of(system, segment.begin);
+  const State& q = segment.begin;
+  double noise = depth_noise * (system.x.stiffness * std::abs(q.x - system.x.anchor) +
+                                system.y.stiffness * std::abs(q.y - system.y.anchor));
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
+    const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
+    const TouchPoint p = touch_point(system, segment.begin, {contact.site, face});
+    const double force = magnitude_at(contact.normal_force, segment.order, h) +
+                         magnitude_at(contact.tangential_force, segment.order, h) + p.stiffness * depth_noise;
+    const double creep = mobility(system, p) * kForceDigits * force * h;  // a speed
+    noise += force * (depth_noise + creep * h);
+  }
+  return noise;
+}
+
+}  // namespace vibratory_alignment::hunt

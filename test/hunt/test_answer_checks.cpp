@@ -1,0 +1,92 @@
+// The checker itself: whole answers that are right pass, doctored ones do not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../support/mirror.h"
+#include "../support/scenes.h"
+#include "answer_checks.h"
+#include "mechanics/system.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+class DoctoredAnswer : public testing::Test {
+ protected:
+  Scene scene_ = test::scene_of(test::plain);
+  System system_ = make_system(scene_);
+  Trace trace_ = run_trial(scene_, true);
+};
+
+TEST_F(DoctoredAnswer, is_found_nothing_in_before) {
+  EXPECT_FALSE(trace_.fault);
+  EXPECT_FALSE(check_ending(trace_.result, Range::ordinary));
+  EXPECT_FALSE(check_finite(trace_.result));
+  EXPECT_FALSE(check_energy(scene_, trace_));
+  EXPECT_FALSE(check_same(trace_.result, run_sampled(scene_, 0.01, true)));
+  EXPECT_LT(difference(system_, trace_, mirrored(run_trial(test::mirrored(scene_), false))), 1e-12);
+  EXPECT_GE(trace_.touches.size(), 3u);
+}
+
+TEST_F(DoctoredAnswer, that_never_ended) {
+  trace_.result.outcome = Outcome::running;
+  EXPECT_TRUE(check_ending(trace_.result, Range::wild));
+}
+
+TEST_F(DoctoredAnswer, that_failed) {
+  trace_.result.outcome = Outcome::failed;
+  trace_.result.failure = "the step has become too short at time 1.5";
+  EXPECT_EQ(refusal(trace_.result), "the step has become too short");
+  EXPECT_TRUE(check_ending(trace_.result, Range::ordinary));
+  EXPECT_FALSE(check_ending(trace_.result, Range::wild));
+}
+
+TEST_F(DoctoredAnswer, up_to_the_step_limit_is_a_refusal) {
+  scene_.solver.step_limit = 10;
+  const Trace refused = run_trial(scene_, true);
+  EXPECT_EQ(refusal(refused.result), "step limit");
+  EXPECT_FALSE(check_ending(refused.result, Range::ordinary));
+}
+
+TEST_F(DoctoredAnswer, with_a_number_that_is_none) {
+  trace_.result.peak_force[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(check_finite(trace_.result));
+}
+
+TEST_F(DoctoredAnswer, whose_energy_comes_from_nowhere) {
+  EnergyLedger& energy = *trace_.result.energy;
+  energy.final += 1e-5 * energy.exchanged;
+  EXPECT_EQ(check_energy(scene_, trace_)->invariant, Invariant::ledger_closes);
+}
+
+// The balance still closes, but friction feeds the motion.
+TEST_F(DoctoredAnswer, whose_friction_drives) {
+  EnergyLedger& energy = *trace_.result.energy;
+  energy.excitation_work -= 2.0 * energy.friction_loss;
+  energy.friction_loss = -energy.friction_loss;
+  EXPECT_EQ(check_energy(scene_, trace_)->invariant, Invariant::losses);
+}
+
+TEST_F(DoctoredAnswer, that_is_another_in_its_last_bit) {
+  TrialResult other = trace_.result;
+  other.final_state.omega = std::nextafter(other.final_state.omega, 1e9);
+  EXPECT_TRUE(check_same(trace_.result, other));
+  other = trace_.result;
+  ++other.counts.steps;
+  EXPECT_TRUE(check_same(trace_.result, other));
+}
+
+TEST_F(DoctoredAnswer, that_leans_to_one_side) {
+  Trace image = mirrored(run_trial(test::mirrored(scene_), false));
+  image.touches.front().state.vx += 1e-6;
+  EXPECT_GT(difference(system_, trace_, image), 1e-7);
+  image = mirrored(run_trial(test::mirrored(scene_), false));
+  image.touches.pop_back();
+  EXPECT_EQ(difference(system_, trace_, image), INFINITY);
+  // the unmirrored scene is not its own mirror image
+  EXPECT_GT(difference(system_, trace_, mirrored(trace_)), 1e-3);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment::hunt

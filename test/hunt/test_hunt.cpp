@@ -1,0 +1,93 @@
+// The hunt: its answers do not depend on the number of threads, bit for bit, and a change of one answer shows.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "../support/scenes.h"
+#include "hunt.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+Tally tally_of(Range range, int threads, long count) {
+  HuntOptions options;
+  options.range = range;
+  options.count = count;
+  options.threads = threads;
+  Hunt hunt(options, [](std::uint64_t seed, const Verdict& verdict) {
+    ADD_FAILURE() << "seed " << seed << ": " << verdict.faults.front().detail;
+  });
+  while (!hunt.done()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return hunt.tally();
+}
+
+TEST(Hunt, gives_the_same_bits_in_any_number_of_threads) {
+  for (const Range range : {Range::ordinary, Range::wild}) {
+    const Tally alone = tally_of(range, 1, 60), together = tally_of(range, 3, 60);
+    EXPECT_EQ(alone.digest, together.digest);
+    EXPECT_EQ(alone.outcomes, together.outcomes);
+    EXPECT_EQ(alone.scenes, 60);
+    EXPECT_EQ(together.scenes, 60);
+  }
+}
+
+TEST(Tally, tells_answers_apart_but_not_their_order) {
+  Verdict one, other;
+  one.digest = 1;
+  other.digest = 2;
+  Tally a, b, c;
+  a.add(10, one), a.add(11, other);
+  b.add(11, other), b.add(10, one);
+  c.add(10, other), c.add(11, one);
+  EXPECT_EQ(a.digest, b.digest);
+  EXPECT_NE(a.digest, c.digest);
+}
+
+TEST(Tally, counts_what_was_met) {
+  Verdict failed, refused, without_start;
+  failed.outcome = Outcome::aligned;
+  failed.faults = {{Invariant::mirror, ""}, {Invariant::mirror, ""}, {Invariant::ends, ""}};
+  refused.outcome = Outcome::failed;
+  refused.refusal = "step limit";
+  without_start.has_start = false;
+  Tally tally;
+  tally.add(0, failed), tally.add(1, refused), tally.add(2, without_start);
+  EXPECT_EQ(tally.scenes, 3);
+  EXPECT_EQ(tally.failed, 1);
+  EXPECT_EQ(tally.without_start, 1);
+  EXPECT_EQ(tally.refusals.at("step limit"), 1);
+  EXPECT_EQ(tally.outcomes[static_cast<std::size_t>(Outcome::aligned)], 1);
+  EXPECT_EQ(tally.outcomes[static_cast<std::size_t>(Outcome::failed)], 0);
+  EXPECT_EQ(tally.faults[static_cast<std::size_t>(Invariant::mirror)], 1);
+  EXPECT_NE(summary(tally, Range::wild).find("refused: step limit"), std::string::npos);
+}
+
+// Seed 0 is sound: to call it an open fault is a mistake that shows.
+TEST(Hunt, tells_when_an_open_fault_is_mended) {
+  HuntOptions options;
+  options.count = 1;
+  options.open = {0};
+  Hunt hunt(options, [](std::uint64_t, const Verdict&) {});
+  while (!hunt.done()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(hunt.tally().failed, 1);
+  EXPECT_EQ(hunt.tally().open, 0);
+}
+
+// A part that is pushed to the right only: judged together with its mirror image, all is well; it never throws.
+TEST(Judge, passes_a_sound_scene_and_refuses_one_without_start) {
+  Scene scene = test::scene_of(test::plain);
+  const Verdict verdict = judge(scene, Range::ordinary);
+  EXPECT_TRUE(verdict.has_start);
+  EXPECT_TRUE(verdict.faults.empty());
+  EXPECT_FALSE(verdict.sensitive);
+  scene.solver.name = "no such solver";
+  EXPECT_TRUE(judge(scene, Range::ordinary).breaks(Invariant::ends));
+  scene = test::scene_of(test::plain);
+  scene.initial.x = 10.0;  // nothing can be touched from above there
+  EXPECT_FALSE(judge(scene, Range::ordinary).has_start);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment::hunt

@@ -1,0 +1,94 @@
+// The checker itself: it passes a motion that keeps the laws, and finds every law that is broken in a doctored copy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "../support/scenes.h"
+#include "segment_checks.h"
+#include "trial/simulation.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+/// The first segment of the trial that `wanted` accepts.
+Segment segment_where(const Scene& scene, const std::function<bool(const Segment&)>& wanted) {
+  Simulation simulation(scene);
+  while (simulation.advance())
+    if (wanted(simulation.segment())) return simulation.segment();
+  ADD_FAILURE() << "no such segment";
+  return {};
+}
+
+bool slides_under_load(const Segment& g) {
+  return g.loaded_count == 1 && g.duration > 0.0 && value_at(g.loaded[0].normal_force, g.order, 0.5 * g.duration) > 1.0;
+}
+
+class DoctoredSegment : public testing::Test {
+ protected:
+  Scene scene_ = test::scene_of(test::plain);
+  System system_ = make_system(scene_);
+  Segment segment_ = segment_where(scene_, slides_under_load);
+
+  void expect_broken(Invariant invariant) const {
+    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, segment_);
+    ASSERT_TRUE(fault);
+    EXPECT_STREQ(to_string(fault->invariant), to_string(invariant));
+  }
+};
+
+TEST_F(DoctoredSegment, is_found_nothing_in_before) {
+  Simulation simulation(scene_);
+  while (simulation.advance()) {
+    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, simulation.segment());
+    ASSERT_FALSE(fault) << fault->detail;
+  }
+}
+
+TEST_F(DoctoredSegment, with_a_base_that_pulls) {
+  segment_.loaded[0].normal_force = {-1e-6};
+  expect_broken(Invariant::base_pushes);
+}
+
+TEST_F(DoctoredSegment, with_a_base_force_that_depth_and_rate_do_not_make) {
+  segment_.loaded[0].normal_force[0] *= 1.0 + 1e-5;
+  expect_broken(Invariant::base_pushes);
+}
+
+TEST_F(DoctoredSegment, with_friction_beyond_the_cone) {
+  for (double& c : segment_.loaded[0].tangential_force) c *= 1.0 + 1e-5;
+  expect_broken(Invariant::friction_cone);
+}
+
+TEST_F(DoctoredSegment, with_friction_that_drives) {
+  for (double& c : segment_.loaded[0].tangential_force) c *= -1.0;
+  expect_broken(Invariant::friction_brakes);
+}
+
+TEST_F(DoctoredSegment, with_a_force_that_is_no_number) {
+  segment_.loaded[0].tangential_force[static_cast<std::size_t>(segment_.order)] =
+      std::numeric_limits<double>::quiet_NaN();
+  expect_broken(Invariant::finite);
+}
+
+TEST_F(DoctoredSegment, with_a_state_that_is_no_number) {
+  segment_.end.omega = std::numeric_limits<double>::infinity();
+  expect_broken(Invariant::finite);
+}
+
+TEST_F(DoctoredSegment, with_an_impact_that_nobody_noticed) {
+  segment_.loaded_count = 0;
+  segment_.contacts = {};
+  expect_broken(Invariant::no_passing);
+}
+
+TEST_F(DoctoredSegment, a_flight_that_goes_through_the_base) {
+  segment_ = segment_where(scene_, [](const Segment& g) { return g.flight == nullptr && g.loaded_count == 0; });
+  segment_.end.y -= 0.5;
+  expect_broken(Invariant::no_passing);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment::hunt

@@ -1,0 +1,81 @@
+#include "trace.h"
+
+#include <cstring>
+
+#include "mechanics/system.h"
+#include "segment_checks.h"
+#include "trial/sampler.h"
+#include "trial/simulation.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+bool ends_with_touch(const Segment& segment) {
+  for (int i = 0; i < segment.event_count; ++i)
+    if (segment.events[static_cast<std::size_t>(i)].kind == EventKind::touch) return true;
+  return false;
+}
+
+/// FNV-1a.
+class Digest {
+ public:
+  void add(double value) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    add(bits);
+  }
+  void add(std::uint64_t bits) {
+    for (int i = 0; i < 8; ++i) sum_ = (sum_ ^ ((bits >> (8 * i)) & 0xff)) * 0x100000001b3u;
+  }
+  std::uint64_t sum() const { return sum_; }
+
+ private:
+  std::uint64_t sum_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace
+
+Trace run_trial(const Scene& scene, bool checked) {
+  Trace trace;
+  Simulation simulation(scene);
+  const System system = make_system(scene);
+  while (simulation.advance()) {
+    const Segment& segment = simulation.segment();
+    if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, segment);
+    trace.energy_noise += energy_noise(system, segment);
+    if (!ends_with_touch(segment)) continue;
+    trace.all_touches = trace.touches.size() < kMaxTouches;
+    if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
+  }
+  trace.result = simulation.result();
+  return trace;
+}
+
+TrialResult run_sampled(const Scene& scene, double interval, bool with_events) {
+  Simulation simulation(scene);
+  Sampler sampler(simulation, interval, with_events);
+  Sample sample;
+  while (sampler.next(sample)) {
+  }
+  return simulation.result();
+}
+
+std::uint64_t digest(const TrialResult& r) {
+  Digest digest;
+  const State& q = r.final_state;
+  for (const double value : {r.final_time, q.x, q.y, q.phi, q.vx, q.vy, q.omega, r.aligned_time.value_or(-1.0)})
+    digest.add(value);
+  for (const double peak : r.peak_force) digest.add(peak);
+  for (const long impacts : r.impacts) digest.add(static_cast<std::uint64_t>(impacts));
+  digest.add(static_cast<std::uint64_t>(r.outcome));
+  digest.add(static_cast<std::uint64_t>(r.mode));
+  digest.add(static_cast<std::uint64_t>(r.counts.steps));
+  digest.add(static_cast<std::uint64_t>(r.counts.events));
+  if (r.energy) {
+    digest.add(r.energy->final);
+    digest.add(r.energy->residual);
+  }
+  return digest.sum();
+}
+
+}  // namespace vibratory_alignment::hunt

@@ -1,0 +1,40 @@
+// What is kept of one trial so that answers can be compared: the instants at which something was touched, and the
+// result.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fault.h"
+#include "model/scene.h"
+#include "trial/outcome.h"
+
+namespace vibratory_alignment::hunt {
+
+struct Landmark {
+  double time = 0.0;
+  State state;
+};
+
+struct Trace {
+  std::vector<Landmark> touches;  ///< the first ones, at most kMaxTouches
+  bool all_touches = true;        ///< `touches` are all there were
+  TrialResult result;
+  double energy_noise = 0.0;   ///< what the ledger cannot know
+  std::optional<Fault> fault;  ///< the first breach in a segment
+};
+
+/// Later touches are not compared: each impact can make a difference ten times larger.
+constexpr std::size_t kMaxTouches = 5;
+
+/// Runs the trial; `checked`: every segment is held against the invariants.
+Trace run_trial(const Scene& scene, bool checked);
+
+/// Runs the trial while it is sampled at this interval, with or without its events.
+TrialResult run_sampled(const Scene& scene, double interval, bool with_events);
+
+/// All bits of the answer in one number.
+std::uint64_t digest(const TrialResult& result);
+
+}  // namespace vibratory_alignment::hunt

@@ -1,0 +1,84 @@
+#include "verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "../support/mirror.h"
+#include "answer_checks.h"
+#include "dice.h"
+#include "mechanics/system.h"
+#include "model/scene_loader.h"
+#include "trace.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+/// The start moved in its last digits, or by what the solver's tolerance cuts off.
+Scene nudged(Scene s, double sign) {
+  const double share = sign * (1e-13 + 1e-2 * s.solver.tolerance);
+  s.initial.x += share * (std::abs(s.initial.x) + s.part.half_width);
+  if (s.initial.y) *s.initial.y += share * (std::abs(*s.initial.y) + s.part.base_distance);
+  if (s.initial.phi) *s.initial.phi += share;
+  s.initial.vy += share * (std::abs(s.initial.vy) + 1.0);
+  return s;
+}
+
+/// How far the trial answers to its last digits; infinite if a touch comes or goes.
+double sensitivity(const System& system, const Scene& scene, const Trace& trace) {
+  return std::max(difference(system, trace, run_trial(nudged(scene, 1.0), false)),
+                  difference(system, trace, run_trial(nudged(scene, -1.0), false)));
+}
+
+void compare_with_mirror_image(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
+  const double apart = difference(system, trace, mirrored(run_trial(test::mirrored(scene), false)));
+  if (apart <= 1e-9 + scene.solver.tolerance) return;
+  if (apart <= 100.0 * sensitivity(system, scene, trace))
+    verdict.sensitive = true;
+  else
+    verdict.faults.push_back({Invariant::mirror, "difference = " + std::to_string(apart)});
+}
+
+/// Some rate that no two scenes share.
+void compare_with_sampled(const Scene& scene, const Trace& trace, Verdict& verdict) {
+  Dice dice(trace.result.counts.steps);
+  const double interval = scene.trial.time_limit / dice.uniform(3.0, 100.0);
+  if (const auto fault = check_same(trace.result, run_sampled(scene, interval, dice.chance(0.5))))
+    verdict.faults.push_back(*fault);
+}
+
+void judge_trial(const Scene& scene, const System& system, Range range, Verdict& verdict) {
+  const Trace trace = run_trial(scene, true);
+  verdict.outcome = trace.result.outcome;
+  verdict.digest = digest(trace.result);
+  verdict.refusal = refusal(trace.result);
+  if (trace.fault) verdict.faults.push_back(*trace.fault);
+  if (const auto fault = check_ending(trace.result, range)) verdict.faults.push_back(*fault);
+  if (const auto fault = check_finite(trace.result)) {
+    verdict.faults.push_back(*fault);
+    return;
+  }
+  if (const auto fault = check_energy(scene, trace)) verdict.faults.push_back(*fault);
+  compare_with_sampled(scene, trace, verdict);
+  compare_with_mirror_image(scene, system, trace, verdict);
+}
+
+}  // namespace
+
+bool Verdict::breaks(Invariant invariant) const {
+  return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.invariant == invariant; });
+}
+
+Verdict judge(const Scene& scene, Range range) {
+  Verdict verdict;
+  try {
+    judge_trial(scene, make_system(scene), range, verdict);
+  } catch (const SceneError&) {
+    verdict.has_start = false;
+  } catch (const std::exception& error) {
+    verdict.faults.push_back({Invariant::ends, error.what()});
+  }
+  return verdict;
+}
+
+}  // namespace vibratory_alignment::hunt
