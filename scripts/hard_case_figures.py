@@ -242,6 +242,13 @@ def jamming(share):
     return figure
 
 
+def long_run(run):
+    """The bounce after 100 and after 200 periods of 2 pi/3."""
+    one, two = (run.report(until=periods * 2.0 * math.pi / 3.0) for periods in (100, 200))
+    impacts = two["impacts"]["a1"] - one["impacts"]["a1"]
+    return abs(two["final"]["y"] - one["final"]["y"]), "" if impacts == 100 else "%d impacts in 100 periods" % impacts
+
+
 def has_an_end(*settings):
     """Any outcome will do; the error is the residual of the ledger."""
 
@@ -306,6 +313,7 @@ def cases():
     for share in (0.99, 1.01):
         word = "jammed" if share > 1.0 else "inserted"
         rows.append(Case("jamming", "f = %g of the least" % share, word, 0.0, 1e-4, jamming(share)))
+    rows.append(Case("long_run", "200 periods", "one impact each, the same", 1e-9, 1e-3, long_run))
     for mu in ("1e-8", "1e-6", "1e3"):
         rows.append(Case("extremes", "inertia " + mu, "an outcome, ledger", 1e-9, 1e-4, has_an_end("part.inertia=" + mu)))
     for nu in ("1e-3", "1e4"):
