@@ -62,6 +62,9 @@ constexpr double kMostDebt = 6.0;
 /// Series steps in one contact until an implicit one is tried, and at most between two trials.
 constexpr int kFirstTrial = 48, kLastTrial = 1024;
 
+/// Halvings of a step within which sticking contacts have to move apart.
+constexpr int kMostHalvings = 50;
+
 /// Factor on rounding beyond which sticking contacts have to move apart.
 constexpr double kPartAllowance = 10.0;
 
@@ -338,8 +341,13 @@ const Segment& EventSolver::advance(double limit) {
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
     segment_.duration = step;
     if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
+    // contacts that have been found to stick here, though they part within the step, hold for a part of it
+    if (contact && holds_here_)
+      for (int i = 0; i < kMostHalvings && must_part(); ++i) segment_.duration *= 0.5;
+    holds_here_ = false;
     if (contact && must_part()) {
       // friction is decided anew
+      holds_here_ = true;
       found.time = 0.0;
       found.count = 1;
       found.events[0] = {EventKind::slip, first_sticking(mode_.contacts)};

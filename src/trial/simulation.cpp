@@ -38,9 +38,9 @@ class Simulation::Impl {
 
   bool advance() {
     if (ended_) return false;
-    if (has_segment_) book();
-    if (ended_) return false;
     try {
+      if (has_segment_) book();
+      if (ended_) return false;
       solver_->advance(limit_);
       has_segment_ = true;
     } catch (const SolverFailure& failure) {

@@ -321,6 +321,18 @@ excitation:
 initial: {x: 0.33644313331111442, y: 0.87593714385746457, phi: 0, vx: -0.054158110200216769, vy: -0.42706495036497466, omega: 0}
 trial: {time_limit: 2, aligned_depth: 0.096150637069446904}
 )"},
+      // level on the floor, both corners stick; as soon as it tilts they have to part
+      {"level_on_the_floor", R"(
+part: {half_width: 1, base_distance: 2, inertia: 0.003}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0.05}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0.04, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 1}, damping: {x: 0, y: 0}}
+contacts: [walls]
+friction: {coefficient: 1}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04, aligned_depth: 0}
+)"},
   };
   return all;
 }
