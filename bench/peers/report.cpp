@@ -28,7 +28,7 @@ void print(const std::string& peer, const std::string& problem, double setting, 
 
 }  // namespace
 
-void report(const std::string& peer, const std::string& problem, double setting,
+double report(const std::string& peer, const std::string& problem, double setting,
             const std::function<Outcome()>& integrate) {
   constexpr double enough_s = 0.3, too_much_s = 3.0;
   constexpr std::size_t least_repetitions = 5;
@@ -47,10 +47,11 @@ void report(const std::string& peer, const std::string& problem, double setting,
     const double nan = std::numeric_limits<double>::quiet_NaN();
     outcome.end.fill(nan);
     print(peer, problem, setting, outcome, nan, nan);
-    return;
+    return nan;
   }
   std::sort(times.begin(), times.end());
   print(peer, problem, setting, outcome, times.front(), times[times.size() / 2]);
+  return times.front();
 }
 
 std::vector<Problem> chosen(const std::vector<Problem>& known, int argc, char** argv) {

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Writes the tables and the figure of docs/accuracy.md from the lines that `run` printed.
+
+Tables go between the lines <!-- results -->, the figure to docs/images/accuracy.svg. What counts as keeping an error:
+table.py.
+Usage: accuracy_page.py FILE.csv
+"""
+import contextlib
+import datetime
+import io
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+from table import POSITION, cell, keeping, read, seconds, table
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PAGE = os.path.join(ROOT, "docs", "accuracy.md")
+FIGURE = os.path.join(ROOT, "docs", "images", "accuracy.svg")
+MARK = "<!-- results -->"
+ERRORS = (1e-3, 1e-6, 1e-9)
+OWN = "own_"
+# What is shown, the problem of the own solvers, and the one of the peers: for dry friction their tanh approximation.
+SHOWN = (
+    ("R1, tanh friction", "r1", "r1"),
+    ("R1, dry friction", "r1_dry", "r1"),
+    ("R1 on a base 1000 times as stiff, tanh", "r1_stiff", "r1_stiff"),
+    ("the same, dry", "r1_stiff_dry", "r1_stiff"),
+    ("lasting contact, tanh", "lasting", "lasting"),
+    ("lasting contact, dry", "lasting_dry", "lasting"),
+    ("lasting contact on a stiff overdamped base, tanh", "lasting_overdamped", "lasting_overdamped"),
+    ("the same, dry", "lasting_overdamped_dry", "lasting_overdamped"),
+)
+# Peers that know dry friction are compared on it.
+DRY_PEERS = ("ode_world",)
+
+
+def processor():
+    with open("/proc/cpuinfo") as file:
+        names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
+    return f"{names[0] if names else 'unknown processor'}, {os.cpu_count()} cores"
+
+
+def series_of(runs, own_problem, peer_problem):
+    """{name: (runs, problem)}: own solvers on their problem, the others on theirs."""
+    found = {}
+    for name, series in runs.get(own_problem, {}).items():
+        if name.startswith(OWN) or name in DRY_PEERS:
+            found[name] = (series, own_problem)
+    for name, series in runs.get(peer_problem, {}).items():
+        if not name.startswith(OWN) and name not in found:
+            found[name] = (series, peer_problem)
+    return found
+
+
+def best_of(found, answers, error, own):
+    kept = [(keeping(series, answers[problem], POSITION, error), name) for name, (series, problem) in found.items()
+            if name.startswith(OWN) == own]
+    return min(((run, name) for run, name in kept if run), key=lambda pair: pair[0].time_s, default=None)
+
+
+def print_ratios(runs, answers):
+    print("### The best own solver against the best peer\n")
+    rows = []
+    for title, own_problem, peer_problem in SHOWN:
+        found = series_of(runs, own_problem, peer_problem)
+        row = [title]
+        for error in ERRORS[1:]:
+            own, peer = best_of(found, answers, error, True), best_of(found, answers, error, False)
+            row += [f"{seconds(own[0].time_s)} ({own[1][len(OWN):]})" if own else "-",
+                    f"{seconds(peer[0].time_s)} ({peer[1]})" if peer else "-",
+                    f"**{peer[0].time_s / own[0].time_s:.2g}**" if own and peer else "-"]
+        rows.append(row)
+    table(["problem", "own, 1e-6", "peer, 1e-6", "ratio", "own, 1e-9", "peer, 1e-9", "ratio"], rows)
+
+
+def print_all(runs, answers):
+    for title, own_problem, peer_problem in SHOWN:
+        found = series_of(runs, own_problem, peer_problem)
+        if not found:
+            continue
+        print(f"### {title} (`{own_problem}`" + (f", peers on `{peer_problem}`)\n" if own_problem != peer_problem else ")\n"))
+        rows = []
+        for name, (series, problem) in found.items():
+            least = min(run.error(answers[problem], POSITION) for run in series)
+            rows.append([name.replace(OWN, "**own** ")] +
+                        [cell(keeping(series, answers[problem], POSITION, error)) for error in ERRORS] + [f"{least:.0e}"])
+        table(["solver"] + [f"{error:.0e}" for error in ERRORS] + ["least error"], rows)
+
+
+def draw(runs, answers):
+    shown = [entry for entry in SHOWN if entry[1] in ("r1", "r1_dry", "r1_stiff", "lasting_overdamped")]
+    figure, panels = plt.subplots(2, 2, figsize=(11.0, 8.5), sharex=True)
+    names = sorted({name for entry in shown for name in series_of(runs, *entry[1:])}, key=lambda n: (not n.startswith(OWN), n))
+    colours = {name: plt.get_cmap("tab20")(i % 20) for i, name in enumerate(names)}
+    lines = {}
+    for panel, (title, own_problem, peer_problem) in zip(panels.flat, shown):
+        for name, (series, problem) in series_of(runs, own_problem, peer_problem).items():
+            points = [(max(run.error(answers[problem], POSITION), 1e-16), run.time_s) for run in series]
+            points = [(error, time) for error, time in points if error < 1.0]
+            own = name.startswith(OWN)
+            lines[name], = panel.loglog(*(zip(*points) if points else ((), ())), "-" if own else "--", marker="o" if own else ".",
+                                        markersize=3, linewidth=1.6 if own else 1.0, color=colours[name])
+        panel.set_title(title if own_problem == peer_problem else f"{title} (peers: tanh)", fontsize=10)
+        panel.set_xlim(1.0, 1e-15)
+        panel.grid(True, which="major", linewidth=0.3)
+    for panel in panels[1]:
+        panel.set_xlabel("error of x, y, phi at the end")
+    for panel in panels[:, 0]:
+        panel.set_ylabel("processor time, s")
+    figure.legend([lines[n] for n in names if n in lines], [n.replace(OWN, "own: ") for n in names if n in lines],
+                  loc="lower center", ncol=6, fontsize=8, frameon=False)
+    figure.tight_layout(rect=(0.0, 0.07, 1.0, 1.0))
+    figure.savefig(FIGURE, metadata={"Date": None})
+
+
+def main():
+    runs, answers = read(sys.argv[1])
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        print(f"Made on {datetime.date.today()}, {processor()}.\n")
+        print_ratios(runs, answers)
+        print("![Error against processor time](images/accuracy.svg)\n")
+        print_all(runs, answers)
+    with open(PAGE) as file:
+        head, _, tail = file.read().split(MARK)
+    with open(PAGE, "w") as file:
+        file.write(f"{head}{MARK}\n{text.getvalue()}{MARK}{tail}")
+    draw(runs, answers)
+
+
+if __name__ == "__main__":
+    main()
