@@ -104,7 +104,7 @@ void FreeMotion::homogeneous(double t, double& c_change, double& s) const {
   }
 }
 
-FreeMotion::Bounds FreeMotion::bounds(double end) const {
+FreeMotion::Bounds FreeMotion::moving_bounds(double end) const {
   Bounds b = oscillation_;
   const double p2 = std::abs(p2_), p3 = std::abs(p3_);
   b.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
@@ -148,12 +148,8 @@ double FreeMotion::rate() const {
   return fastest;
 }
 
-void FreeMotion::at(double t, double& q, double& v) const {
-  if (!axis_.moves) {
-    q = start_q_;
-    v = 0.0;
-    return;
-  }
+/// Position and velocity of an axis that moves.
+void FreeMotion::move(double t, double& q, double& v) const {
   // all as changes since the start: what is far larger than the motion cancels in them
   double c_change = 0.0, s = 0.0;
   homogeneous(t, c_change, s);

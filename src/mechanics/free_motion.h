@@ -28,19 +28,25 @@ class FreeMotion {
   struct Bounds {
     double rate = 0.0, second = 0.0, third = 0.0;
   };
-  Bounds bounds(double end) const;
+  Bounds bounds(double end) const { return axis_.moves ? moving_bounds(end) : Bounds{}; }
 
   /// Fastest rate of the motion, rad per unit of time.
   double rate() const;
 
   /// Position and velocity at time t >= 0 after begin().
-  void at(double t, double& q, double& v) const;
+  void at(double t, double& q, double& v) const {
+    q = start_q_;
+    v = 0.0;
+    if (axis_.moves) move(t, q, v);
+  }
 
  private:
   struct Sine {
     double frequency, sin_amplitude, cos_amplitude;  ///< of the response
   };
 
+  void move(double t, double& q, double& v) const;
+  Bounds moving_bounds(double end) const;
   Bounds oscillation_bounds() const;
   void homogeneous(double t, double& c_change, double& s) const;
   void add_particular(double t, double& q, double& v) const;

@@ -14,7 +14,8 @@ void Flight::begin(const System& system, const State& state, const DriveForms& d
     axis.add(drives.form[i]);
   }
   rate_ = 0.0;
-  for (FreeMotion* axis : {&x_, &y_, &phi_}) {
+  FreeMotion* const axes[] = {&x_, &y_, &phi_};
+  for (FreeMotion* axis : axes) {
     axis->settle();
     rate_ = std::max(rate_, axis->rate());
   }

@@ -136,12 +136,18 @@ class View {
 
   /// Time in which the point surely stays out of the region: as long as any one of its conditions fails.
   double time_outside(const PointMotion& m, const Region& region, Face pinned) const {
-    double time = 0.0;
-    for (int j = 0; j < region.count && time < longest_; ++j) {
+    // what is farthest from holding keeps the point out for longest: often no other condition has to be asked
+    int farthest = 0;
+    for (int j = 1; j < region.count; ++j)
+      if (region.conditions[j].value(m.p) < region.conditions[farthest].value(m.p)) farthest = j;
+    const auto time_below = [&](int j) {
       const RegionCondition& condition = region.conditions[j];
       const bool from_zero = pinned != Face::none && condition.face == pinned;
-      time = std::max(time, m.along(condition).time_below(longest_, from_zero));
-    }
+      return m.along(condition).time_below(longest_, from_zero);
+    };
+    double time = time_below(farthest);
+    for (int j = 0; j < region.count && time < longest_; ++j)
+      if (j != farthest) time = std::max(time, time_below(j));
     return time;
   }
 

@@ -10,12 +10,29 @@
 
 namespace vibratory_alignment {
 
-/// Forces of the excitations as sums over the drives, per axis.
+/// Forces of the excitations as sums over the drives, per axis. Of the forms only the first `count` are made and
+/// copied: room for more costs nothing.
 struct DriveForms {
   static constexpr int kMax = 16;
   std::array<Direction, kMax> direction{};
-  std::array<DriveForm, kMax> form{};
+  union {
+    std::array<DriveForm, kMax> form;
+  };
   int count = 0;
+
+  DriveForms() {}
+  DriveForms(const DriveForms& other) : direction(other.direction), count(other.count) { copy_forms(other); }
+  DriveForms& operator=(const DriveForms& other) {
+    direction = other.direction;
+    count = other.count;
+    copy_forms(other);
+    return *this;
+  }
+
+ private:
+  void copy_forms(const DriveForms& other) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) form[i] = other.form[i];
+  }
 };
 
 class MotionSeries {

@@ -46,6 +46,7 @@ double sliding_threshold(const System& system) { return system.tanh_saturation *
 /// to its end, `slides` those that are decided already; `speed`: what V is small against.
 void set_friction(const System& system, const State& state, const DriveForms& drives, double speed,
                   const SiteFlags& zero_slip, const SiteFlags& slides, FrictionChoice& friction, ContactMode& mode) {
+  if (system.friction == 0.0) return;
   SiteFlags at_rest{};
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     ContactState& contact = mode.contacts[i];
@@ -53,7 +54,6 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       contact.slip = Slip::none;
       continue;
     }
-    if (system.friction == 0.0) continue;
     const double v = contact_kinematics(system, state, static_cast<Site>(i), contact.face).slip_velocity;
     if (system.regularization > 0.0) {
       // sliding, or the layer about V = 0; an event has put V on the border, from where the old law tells the way

@@ -89,19 +89,17 @@ void SettlingWatch::compare() {
   if (next_ < kHistory) return;
   const auto at = [this](long index) -> const State& { return history_[static_cast<std::size_t>(index % kHistory)]; };
   const double periods_left = std::max(1.0, (time_limit_ - begin_) / period_ - static_cast<double>(next_));
-  const double allowed = std::min(kLargestDifference, kDriftShare / (periods_left * periods_left));
-  for (int subharmonic = 1; subharmonic <= kSubharmonics; ++subharmonic) {
+  const double allowed = std::max(std::min(kLargestDifference, kDriftShare / (periods_left * periods_left)), kRoundoff);
+  for (int subharmonic = 1; subharmonic <= kSubharmonics && !settled_; ++subharmonic) {
+    // most motions differ at the first instant
     double older = 0.0, newer = 0.0;
-    for (int i = 0; i < kInstants; ++i) {
+    for (int i = 0; i < kInstants && std::max(older, newer) <= allowed; ++i) {
       const long index = next_ - 1 - i;
-      (i < kInstants / 2 ? newer : older) =
-          std::max(i < kInstants / 2 ? newer : older, difference(at(index), at(index - subharmonic)));
+      double& half = i < kInstants / 2 ? newer : older;
+      half = std::max(half, difference(at(index), at(index - subharmonic)));
     }
     const bool shrinks = newer <= older || newer <= kRoundoff;
-    if (std::max(older, newer) <= std::max(allowed, kRoundoff) && shrinks) {
-      settled_ = true;
-      return;
-    }
+    settled_ = std::max(older, newer) <= allowed && shrinks;
   }
 }
 

@@ -21,7 +21,7 @@ DriveForms random_drives(std::mt19937& random) {
   drives.count = 1 + static_cast<int>(2.9 * std::abs(u(random)));
   for (std::size_t i = 0; i < static_cast<std::size_t>(drives.count); ++i) {
     drives.direction[i] = static_cast<Direction>(static_cast<int>(2.99 * std::abs(u(random))));
-    DriveForm& form = drives.form[i];
+    DriveForm& form = drives.form[i] = {};
     if (u(random) > 0.6) {
       form.constant = u(random);
       form.slope = u(random);

@@ -41,6 +41,7 @@ DriveForms force(Direction direction, double constant, double slope = 0.0) {
   DriveForms drives;
   drives.count = 1;
   drives.direction[0] = direction;
+  drives.form[0] = {};
   drives.form[0].constant = constant;
   drives.form[0].slope = slope;
   return drives;
@@ -158,7 +159,7 @@ DriveForms random_drives(double size, std::mt19937& random) {
   for (const Direction direction : {Direction::x, Direction::y, Direction::phi}) {
     const auto i = static_cast<std::size_t>(drives.count++);
     drives.direction[i] = direction;
-    DriveForm& form = drives.form[i];
+    DriveForm& form = drives.form[i] = {};
     form.constant = size * u(random);
     form.slope = size * u(random);
     form.amplitude = size * u(random);
@@ -468,6 +469,7 @@ TEST(FrictionChoice, contacts_that_have_to_part_do_so_the_way_they_move) {
       DriveForms drives = force(Direction::x, push);
       drives.count = 2;
       drives.direction[1] = Direction::phi;
+      drives.form[1] = {};
       drives.form[1].constant = moment;
       const Decision d(system, q, drives, {right, left});
       // the need of the pair, with V = x' + phi' b; its sign decides

@@ -1,0 +1,58 @@
+"""What the benches that write tables share: counting instructions, naming the machine, replacing a page's table."""
+
+import datetime
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# Of the programs that are started, those of the system.
+os.environ["PATH"] = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+
+# Only what steps the trial is counted, not the reading of the scene.
+COUNTED = "vibratory_alignment::Simulation::advance()"
+
+
+def output_of(command):
+    """What a program prints; ends the bench where it fails."""
+    process = subprocess.run(command, stdout=subprocess.PIPE, universal_newlines=True)
+    if process.returncode != 0:
+        sys.exit("%s: exit status %d" % (" ".join(command), process.returncode))
+    return process.stdout
+
+
+def instructions_of(command):
+    """(what the program prints, instructions in Simulation::advance), under callgrind."""
+    with tempfile.TemporaryDirectory(prefix="bench_") as folder:
+        log = os.path.join(folder, "log")
+        text = output_of(["valgrind", "--tool=callgrind", "--log-file=" + log, "--toggle-collect=" + COUNTED,
+                          "--callgrind-out-file=" + os.path.join(folder, "out")] + command)
+        with open(log) as file:
+            return text, int(re.search(r"Collected : (\d+)", file.read()).group(1))
+
+
+def stamp(command):
+    """The line above a table: which command made it, when and on what."""
+    with open("/proc/cpuinfo") as file:
+        names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
+    return "Made by `%s` on %s, %s, %d cores." % (
+        command, datetime.datetime.utcnow().strftime("%Y-%m-%d"), names[0] if names else "unknown processor",
+        os.cpu_count())
+
+
+def markdown(head, rows):
+    lines = ["| %s |" % " | ".join(head), "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| %s |" % " | ".join(row) for row in rows]) + "\n"
+
+
+def replace_table(page, name, text):
+    """Puts `text` between the two lines <!-- NAME --> of a page of docs/."""
+    path, mark = os.path.join(ROOT, "docs", page), "<!-- %s -->" % name
+    with open(path) as file:
+        parts = file.read().split(mark)
+    if len(parts) != 3:
+        sys.exit("%s: needs two lines %s" % (path, mark))
+    with open(path, "w") as file:
+        file.write(parts[0] + mark + "\n" + text + mark + parts[2])
