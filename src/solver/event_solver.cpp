@@ -53,14 +53,19 @@ constexpr double kNoDeformation = 1e-18;
 /// Error of an implicit step as a share of the tolerance asked for.
 constexpr double kImplicitShare = 1e-2;
 
-/// An implicit step costs as much as so many series steps.
-constexpr double kImplicitCost = 12.0;
+/// Costs in series steps, counted in instructions: one evaluation of the forces in an implicit step with all that goes
+/// with it, and a whole such step.
+constexpr double kEvaluationCost = 0.14, kImplicitCost = 8.0;
 
-/// Implicit steps that may go to waste before series steps take over again.
-constexpr double kMostDebt = 6.0;
+/// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
+/// may be saved for later losses: the short steps after a slip event.
+constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
 
-/// Series steps in one contact until an implicit one is tried, and at most between two trials.
-constexpr int kFirstTrial = 48, kLastTrial = 1024;
+/// Series steps in one contact before an implicit one is tried.
+constexpr int kTrialAfter = 48;
+
+/// Shortest step worth trying, in series steps.
+constexpr double kShortestTrial = 2.0;
 
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
@@ -89,6 +94,12 @@ double time_to_kink(const std::vector<Drive>& drives, const Instant& t) {
 bool is_crossing(EventKind kind) {
   return kind == EventKind::touch || kind == EventKind::close || kind == EventKind::enter || kind == EventKind::leave ||
          kind == EventKind::run_off;
+}
+
+/// Events at which normal forces jump, or start anew: the base rings.
+bool rings_base(EventKind kind) {
+  return kind == EventKind::touch || kind == EventKind::reload || kind == EventKind::run_off ||
+         kind == EventKind::drive_kink;
 }
 
 bool any_loaded(const ContactStates& contacts) {
@@ -211,13 +222,15 @@ void EventSolver::go_to_end() {
   mode_ = next_mode_;
   drives_ = next_drives_;
   counts_.events += segment_.event_count;
-  if (segment_.event_count > 0) implicit_.restart();
+  bool rings = false;
   for (int i = 0; i < segment_.event_count; ++i) {
     const EventKind kind = segment_.events[static_cast<std::size_t>(i)].kind;
     if (kind == EventKind::drive_kink) in_flight_ = false;
     if (kind == EventKind::aligned) outcomes_.aligned = false;
     if (kind == EventKind::inserted) outcomes_.inserted = false;
+    rings = rings || rings_base(kind);
   }
+  if (segment_.event_count > 0) implicit_.restart(rings);
 }
 
 /// Flies in one segment in closed form, without series, to the next event if that is certain, or as far as nothing can
@@ -251,31 +264,38 @@ double EventSolver::series_contact_step(const DriveForms& drives) {
   return std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
 }
 
-/// One step in contact of at most `longest`, by the method that is due. Automatic: after a number of series steps in
-/// one contact an implicit step is tried; it stays with these while they go as far as the series would at the same
-/// cost.
+/// One step in contact of at most `longest`, by the method that is due. Automatic: implicit steps are tried on credit.
+/// The series earn it as a share of their cost; what an implicit step brings beyond its cost adds to it or takes from
+/// it, and when it is used up the series take over again.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
-  if (method_ == ContactMethod::automatic && !stays_implicit_ && series_steps_ >= trial_after_) {
+  double shortest = 0.0;
+  if (method_ == ContactMethod::automatic && !stays_implicit_ && series_steps_ >= kTrialAfter &&
+      credit_ >= kTrialShare * kTrialAfter) {
     implicit_.suggest(2.0 * kImplicitCost * series_step_);
+    shortest = kShortestTrial * series_step_;
     stays_implicit_ = true;
-    implicit_debt_ = kMostDebt - 1.0;
   }
   if (method_ == ContactMethod::implicit || stays_implicit_) {
-    const double step = implicit_.take(state_, drives, longest, segment_, counts_);
+    const long before = counts_.rhs_evaluations;
+    const double step = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
-    if (step < longest) implicit_debt_ = std::max(0.0, implicit_debt_ + 1.0 - step / (kImplicitCost * series_step_));
-    if (step > 0.0 && (method_ == ContactMethod::implicit || implicit_debt_ < kMostDebt)) {
+    if (method_ == ContactMethod::automatic) {
+      const double cost = kEvaluationCost * static_cast<double>(counts_.rhs_evaluations - before);
+      // a step cut short at the end says nothing
+      if (step < longest) credit_ = std::min(credit_ + step / series_step_ - cost, kMostCredit);
+      stays_implicit_ = step > 0.0 && credit_ > 0.0;
+      if (!stays_implicit_) series_steps_ = 0;
+    }
+    if (step > 0.0) {
       implicit_now_ = true;
       implicit_length_ = step;
       series_.adopt(segment_);
       return step;
     }
-    stays_implicit_ = false;
-    series_steps_ = 0;
-    trial_after_ = std::min(2 * trial_after_, kLastTrial);
   }
   series_step_ = series_contact_step(drives);
   ++series_steps_;
+  credit_ = std::min(credit_ + kTrialShare, kMostCredit);
   return series_step_;
 }
 
@@ -306,7 +326,6 @@ const Segment& EventSolver::advance(double limit) {
   } else {
     stays_implicit_ = false;
     series_steps_ = 0;
-    trial_after_ = kFirstTrial;
     // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
     const bool long_ago = in_flight_ && (now_ - flight_.start()) * flight_.rate() > kLongestFlight;
     if (!in_flight_ || long_ago) flight_.begin(system_, state_, drives, now_);

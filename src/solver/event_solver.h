@@ -58,10 +58,9 @@ class EventSolver final : public Solver {
   ImplicitStep implicit_;
   bool implicit_now_ = false;  ///< the current segment is an implicit step
   double implicit_length_ = 0.0;
-  double implicit_debt_ = 0.0;   ///< automatic: steps' worth by which implicit steps have fallen behind the series
-  bool stays_implicit_ = false;  ///< automatic: implicit steps have proved worth while in this contact
-  int series_steps_ = 0;         ///< automatic: series steps in contact since the last trial of an implicit one
-  int trial_after_ = 48;         ///< automatic: so many series steps until the next trial
+  bool stays_implicit_ = false;  ///< automatic: the next step in contact is an implicit one
+  double credit_ = 0.0;          ///< automatic: series steps' worth that implicit steps may lose beside the series
+  int series_steps_ = 0;         ///< automatic: series steps in this contact since the last implicit one
   double series_step_ = 0.0;     ///< automatic: length of the last series step
   Segment segment_;
 

@@ -23,6 +23,9 @@ constexpr double kShortest = 1e-14;
 /// Steps after which the cheap iteration gets another chance where it has failed.
 constexpr int kForget = 16;
 
+/// Rounding of coordinates and velocities, relative to the size of the part and its speed.
+constexpr double kRounding = 4e-16;
+
 /// The first step after a jump of the forces is tried with so many times the last such step.
 constexpr double kRestartGrowth = 2.0;
 
@@ -47,7 +50,21 @@ Load3 drive_at(const DriveForms& drives, double t) {
   return load;
 }
 
+/// Time in which the base alone answers, at least: its period over 2 pi, or the time in which its damper stops the
+/// part.
+double base_time(const System& system) {
+  const double reach = system.half_width * system.half_width + system.base_distance * system.base_distance;
+  const double mobility =
+      std::max(system.x.inverse_inertia, system.y.inverse_inertia) + reach * system.phi.inverse_inertia;
+  const double stiffness = std::max(system.stiffness_x, system.stiffness_y);
+  const double damping = std::max(system.damping_x, system.damping_y);
+  return 1.0 / std::max(std::sqrt(stiffness * mobility), damping * mobility);
+}
+
 }  // namespace
+
+ImplicitStep::ImplicitStep(const System& system, double tolerance)
+    : system_(system), tolerance_(tolerance), base_time_(base_time(system)) {}
 
 void ImplicitStep::evaluate(const State& state, double t, Forces& forces, SolverCounts& counts) const {
   evaluate_forces(system_, state, drive_at(*drives_, t), *contacts_, forces);
@@ -86,7 +103,8 @@ ImplicitStep::Jacobian ImplicitStep::jacobian(const State& state, double t, cons
 
 /// The inverses for Newton's method with the Jacobian of the start for all stages.
 void ImplicitStep::linearise(double h, SolverCounts& counts) {
-  const Jacobian start = jacobian(start_, 0.0, start_forces_, counts);
+  start_jacobian_ = jacobian(start_, 0.0, start_forces_, counts);
+  const Jacobian& start = start_jacobian_;
   const Collocation& table = collocation();
   for (std::size_t m = 0; m < inverse_.size(); ++m) {
     const std::complex<double> z = h * table.eigenvalue[m];
@@ -95,6 +113,21 @@ void ImplicitStep::linearise(double h, SolverCounts& counts) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) inverse_[m][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = inverse(i, j);
   }
+  rounding_ = rounding(h);
+}
+
+/// What rounding of the coordinates and velocities makes of the velocities in a step: no iteration converges and no
+/// error is known beyond it.
+double ImplicitStep::rounding(double h) const {
+  const double length = std::abs(start_.x) + std::abs(start_.y) + system_.half_width + system_.base_distance;
+  const double speed = std::abs(start_.vx) + std::abs(start_.vy);
+  const auto of_column = [this](const Eigen::Matrix3d& matrix, int column) {
+    return size_of(filter({matrix(0, column), matrix(1, column), matrix(2, column)}));
+  };
+  double sum = 0.0;
+  for (int axis = 0; axis < 2; ++axis)
+    sum += length * of_column(start_jacobian_.by_position, axis) + speed * of_column(start_jacobian_.by_velocity, axis);
+  return kRounding * h * sum;
 }
 
 /// The matrix of Newton's method with the Jacobian of every stage, on the way that the start's velocity leads: a stiff
@@ -161,9 +194,15 @@ double ImplicitStep::size_of(const Axes& acceleration) const {
   return std::abs(acceleration[0]) + std::abs(acceleration[1]) + reach * std::abs(acceleration[2]);
 }
 
-void ImplicitStep::restart() {
-  if (restart_step_ > 0.0) next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
-  restarts_ = true;
+/// Error of the velocities that a step may make.
+double ImplicitStep::allowed(double h) const { return std::max(tolerance_ * speed_scale(h), rounding_); }
+
+void ImplicitStep::restart(bool base_rings) {
+  restarts_ = !base_rings;
+  if (base_rings)
+    next_step_ = base_time_;
+  else if (restart_step_ > 0.0)
+    next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
 }
 
 /// In the modes of A the equations decouple.
@@ -224,9 +263,9 @@ bool ImplicitStep::iterate(double h, bool coupled, SolverCounts& counts) {
       change = std::max(change, h * size_of(dv));
     }
     // converged, or as far as rounding lets it
-    const double allowed = tolerance_ * speed_scale(h);
+    const double most = allowed(h);
     const bool stagnates = iteration > 0 && change > 0.5 * before;
-    if (change <= kConverged * allowed || (stagnates && change <= allowed)) {
+    if (change <= kConverged * most || (stagnates && change <= most)) {
       place_stages(h);
       for (std::size_t i = 0; i < kStages; ++i) evaluate(stage_[i], table.node[i] * h, forces_[i], counts);
       return true;
@@ -256,8 +295,8 @@ double ImplicitStep::error(double h) const {
   return h * table.eigenvalue[0].real() * size_of(filter(filter(missed)));
 }
 
-double ImplicitStep::take(const State& start, const DriveForms& drives, double longest, Segment& segment,
-                          SolverCounts& counts) {
+double ImplicitStep::take(const State& start, const DriveForms& drives, double longest, double shortest,
+                          Segment& segment, SolverCounts& counts) {
   start_ = start;
   drives_ = &drives;
   contacts_ = &segment.contacts;
@@ -265,11 +304,10 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, double l
   if (++steps_ % kForget == 0) couples_ = false;
   longest = std::min(longest, longest_drive_step(drives));
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
-  const double shortest = kShortest * longest;
+  shortest = std::max(shortest, kShortest * longest);
   while (h > shortest) {
     if (solve(h, counts)) {
-      const double allowed = tolerance_ * speed_scale(h);
-      const double ratio = error(h) / allowed;
+      const double ratio = error(h) / allowed(h);
       const double factor = std::clamp(0.8 * std::pow(ratio + 1e-30, -1.0 / (kStages + 1)), 0.1, 2.5);
       if (ratio <= 1.0) {
         // a step that was cut short says nothing about longer ones

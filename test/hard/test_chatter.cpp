@@ -19,8 +19,9 @@ struct Chatter {
   std::size_t events;
 };
 
-Chatter chatter(double stiffness) {
+Chatter chatter(double stiffness, const char* solver) {
   Scene scene = test::hard_scene("chatter");
+  scene.solver.name = solver;
   test::set_base(scene, stiffness, 0.1);
   const std::vector<test::TimedEvent> events = test::events_of(scene, scene.trial.time_limit);
   Chatter c{0.0, 0, events.size()};
@@ -45,23 +46,25 @@ double rigid_time_of_rest() {
 
 // What is cut off of the series, once the speed is lost in the sag, and the time in a contact are a few 1/sqrt(k).
 TEST(Chatter, time_to_rest_tends_to_that_of_a_rigid_ball) {
-  for (const double k : {1e4, 1e6, 1e8, 1e10, 1e12}) {
-    const Chatter c = chatter(k);
-    EXPECT_NEAR(c.last_touch, rigid_time_of_rest(), (4.0 + 0.3 * c.touches) / std::sqrt(k)) << k;
-  }
+  for (const char* solver : {"event", "implicit", "auto"})
+    for (const double k : {1e4, 1e6, 1e8, 1e10, 1e12}) {
+      const Chatter c = chatter(k, solver);
+      EXPECT_NEAR(c.last_touch, rigid_time_of_rest(), (4.0 + 0.3 * c.touches) / std::sqrt(k)) << solver << ' ' << k;
+    }
 }
 
 // It bounces until v e^n is about w/sqrt(k); the last ones are longer in contact than in flight, and lose more.
 TEST(Chatter, bounces_finitely_often) {
-  for (const double k : {1e4, 1e6, 1e8, 1e10, 1e12}) {
-    const Chatter c = chatter(k);
-    const double bounces =
-        std::log(first_speed() * std::sqrt(k) / kWeight) / std::log(1.0 / test::linear_restitution(0.1));
-    EXPECT_LE(c.touches, bounces + 3.0) << k;
-    EXPECT_GE(c.touches, bounces - 8.0) << k;
-    // touch, release, close
-    EXPECT_LE(c.events, 3u * static_cast<unsigned>(c.touches)) << k;
-  }
+  for (const char* solver : {"event", "implicit", "auto"})
+    for (const double k : {1e4, 1e6, 1e8, 1e10, 1e12}) {
+      const Chatter c = chatter(k, solver);
+      const double bounces =
+          std::log(first_speed() * std::sqrt(k) / kWeight) / std::log(1.0 / test::linear_restitution(0.1));
+      EXPECT_LE(c.touches, bounces + 3.0) << solver << ' ' << k;
+      EXPECT_GE(c.touches, bounces - 8.0) << solver << ' ' << k;
+      // touch, release, close
+      EXPECT_LE(c.events, 3u * static_cast<unsigned>(c.touches)) << solver << ' ' << k;
+    }
 }
 
 // ... and then stays there, at rest under its load, which is an outcome.

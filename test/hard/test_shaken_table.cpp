@@ -22,8 +22,9 @@ double doubling_gamma() {
 
 /// Times between the last 20 touches as shares of the period. It starts 1 % off the motion that bounces once a period:
 /// there it leaves with w T e/(1 + e) in the phase cos theta = least_gamma/gamma (where there is none: at its limit).
-std::vector<double> last_flights(double gamma) {
+std::vector<double> last_flights(double gamma, const char* solver = "event") {
   Scene scene = test::hard_scene("shaken_table");
+  scene.solver.name = solver;
   scene.excitations[0].amplitude = gamma;
   scene.excitations[0].phase = std::acos(std::min(1.0, least_gamma() / gamma));
   scene.initial.vy = 1.01 * kPeriod * restitution() / (1.0 + restitution());
@@ -47,6 +48,11 @@ TEST(ShakenTable, thresholds_are_the_published_ones) {
 TEST(ShakenTable, one_bounce_a_period_between_the_thresholds) {
   for (const double gamma : {1.01 * least_gamma(), 1.25, 1.4, 1.55, 0.99 * doubling_gamma()})
     for (const double share : last_flights(gamma)) EXPECT_NEAR(share, 1.0, 1e-4) << gamma;
+}
+
+TEST(ShakenTable, implicit_steps_bounce_once_a_period_too) {
+  for (const double gamma : {1.25, 1.4, 1.55})
+    for (const double share : last_flights(gamma, "implicit")) EXPECT_NEAR(share, 1.0, 1e-4) << gamma;
 }
 
 TEST(ShakenTable, no_such_motion_below) {

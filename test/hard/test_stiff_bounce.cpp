@@ -26,30 +26,35 @@ Height rigid_ball(double t) {
 }
 
 TEST(StiffBounce, steps_of_an_impact_do_not_depend_on_the_stiffness) {
-  double first = 0.0;
-  for (double k = 1e3; k < 2e12; k *= 10.0) {
-    Scene scene = test::hard_scene("stiff_bounce");
-    test::set_base(scene, k, 0.1);
-    const TrialResult result = test::run(scene);
-    ASSERT_NE(result.outcome, Outcome::failed) << result.failure;
-    ASSERT_EQ(result.impacts[0], 2) << k;
-    EXPECT_LT(result.energy->residual, 1e-9) << k;
-    const double steps = static_cast<double>(result.counts.steps) / 2.0;
-    if (first == 0.0) first = steps;
-    EXPECT_LT(steps, 1.5 * first + 2.0) << k;
+  for (const char* solver : {"event", "implicit"}) {
+    double first = 0.0;
+    for (double k = 1e3; k < 2e12; k *= 10.0) {
+      Scene scene = test::hard_scene("stiff_bounce");
+      scene.solver.name = solver;
+      test::set_base(scene, k, 0.1);
+      const TrialResult result = test::run(scene);
+      ASSERT_NE(result.outcome, Outcome::failed) << solver << ": " << result.failure;
+      ASSERT_EQ(result.impacts[0], 2) << solver << ' ' << k;
+      EXPECT_LT(result.energy->residual, 1e-9) << solver << ' ' << k;
+      const double steps = static_cast<double>(result.counts.steps) / 2.0;
+      if (first == 0.0) first = steps;
+      EXPECT_LT(steps, 1.5 * first + 2.0) << solver << ' ' << k;
+    }
   }
 }
 
 TEST(StiffBounce, tends_to_the_rigid_ball) {
-  for (double k = 1e3; k < 2e12; k *= 10.0) {
-    Scene scene = test::hard_scene("stiff_bounce");
-    test::set_base(scene, k, 0.1);
-    const State end = test::run(scene).final_state;
-    const Height rigid = rigid_ball(scene.trial.time_limit);
-    // two contacts of about pi/sqrt(k) each, at speeds and accelerations below 1
-    EXPECT_NEAR(end.y, rigid.y, 10.0 / std::sqrt(k)) << k;
-    EXPECT_NEAR(end.vy, rigid.vy, 10.0 / std::sqrt(k)) << k;
-  }
+  for (const char* solver : {"event", "implicit"})
+    for (double k = 1e3; k < 2e12; k *= 10.0) {
+      Scene scene = test::hard_scene("stiff_bounce");
+      scene.solver.name = solver;
+      test::set_base(scene, k, 0.1);
+      const State end = test::run(scene).final_state;
+      const Height rigid = rigid_ball(scene.trial.time_limit);
+      // two contacts of about pi/sqrt(k) each, at speeds and accelerations below 1
+      EXPECT_NEAR(end.y, rigid.y, 10.0 / std::sqrt(k)) << solver << ' ' << k;
+      EXPECT_NEAR(end.vy, rigid.vy, 10.0 / std::sqrt(k)) << solver << ' ' << k;
+    }
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "../support/hard_scene.h"
 #include "../support/motion_check.h"
 #include "../support/reference_scene.h"
+#include "../support/restitution.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
 
@@ -74,6 +76,39 @@ TEST(Implicit, follows_the_creep_in_a_thin_layer_of_friction) {
       EXPECT_LT(implicit.counts.steps, 2 * steps) << eps;
     }
     steps = implicit.counts.steps;
+  }
+}
+
+// After a touch the base rings for as long as it is stiff: no step may pass over the rebound, however long it could be.
+TEST(Implicit, follows_every_rebound) {
+  for (const double k : {1e6, 1e9, 1e12}) {
+    Scene scene = test::hard_scene("stiff_bounce", {"trial.time_limit=50"});
+    test::set_base(scene, k, 0.3);
+    double speed = 0.0, restitution = 0.0;
+    scene.solver.name = "implicit";
+    test::run(scene, [&](const Segment& g) {
+      for (int i = 0; i < g.event_count; ++i) {
+        if (g.events[static_cast<std::size_t>(i)].kind == EventKind::touch) speed = -g.end.vy;
+        if (g.events[static_cast<std::size_t>(i)].kind == EventKind::release && restitution == 0.0)
+          restitution = g.end.vy / speed;
+      }
+    });
+    EXPECT_NEAR(restitution, test::linear_restitution(0.3), 10.0 / std::sqrt(k)) << k;
+  }
+}
+
+// Beyond what rounding leaves of the velocities there is nothing to converge to.
+TEST(Implicit, smallest_tolerances_cost_no_more_than_their_digits) {
+  for (const char* name : {"shaken_table", "chatter", "lasting_contact"}) {
+    Scene scene = test::hard_scene(name);
+    const auto evaluations = [&](double tolerance) {
+      const TrialResult result = run_with(scene, "implicit", tolerance);
+      EXPECT_NE(result.outcome, Outcome::failed) << name << ": " << result.failure;
+      return result.counts.rhs_evaluations;
+    };
+    const long usual = evaluations(1e-11);
+    for (const double tolerance : {1e-12, 1e-13, 1e-14})
+      EXPECT_LT(evaluations(tolerance), 2 * usual) << name << tolerance;
   }
 }
 
