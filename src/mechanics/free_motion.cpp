@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vibratory_alignment {
 namespace {
 
 /// Loss of digits through cancelling terms that the closed form is allowed before the series take over.
 constexpr double kLargestGain = 1e3;
+
+/// A mode has decayed when its velocity and third derivative are below these, relative to motions of order one.
+constexpr double kNoVelocity = 1e-18, kNoThird = 1e-6;
 
 }  // namespace
 
@@ -20,7 +24,10 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   exact_ = true;
   sines_.clear();
   p0_ = p1_ = p2_ = p3_ = 0.0;
-  oscillation_ = {};
+  early_ = late_ = {};
+  slow_ = {};
+  early_rate_ = late_rate_ = 0.0;
+  decayed_ = std::numeric_limits<double>::infinity();
   if (!axis_.moves) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   decay_ = 0.5 * h / m;
@@ -48,7 +55,11 @@ void FreeMotion::add(const DriveForm& form) {
 }
 
 void FreeMotion::settle() {
-  if (!axis_.moves || !exact_) return;
+  if (!axis_.moves) return;
+  early_rate_ = square_ > 0.0 ? decay_ + root_ : std::hypot(decay_, root_);
+  for (const Sine& sine : sines_) late_rate_ = std::max(late_rate_, sine.frequency);
+  early_rate_ = std::max(early_rate_, late_rate_);
+  if (!exact_) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   if (k > 0.0) {
     p1_ = slope_ / k;
@@ -70,7 +81,7 @@ void FreeMotion::settle() {
     c_factor_ -= sine.cos_amplitude;
     s_factor_ -= sine.frequency * sine.sin_amplitude;
   }
-  oscillation_ = oscillation_bounds();
+  find_bounds();
 }
 
 /// Change of the particular solution since t = 0.
@@ -104,8 +115,12 @@ void FreeMotion::homogeneous(double t, double& c_change, double& s) const {
   }
 }
 
-FreeMotion::Bounds FreeMotion::moving_bounds(double end) const {
-  Bounds b = oscillation_;
+FreeMotion::Bounds FreeMotion::moving_bounds(double begin, double end) const {
+  Bounds b = begin < decayed_ ? early_ : late_;
+  const double left = slow_.amplitude > 0.0 ? slow_.amplitude * std::exp(-slow_.decay * begin) : 0.0;
+  b.rate += left * slow_.rate;
+  b.second += left * slow_.rate * slow_.rate;
+  b.third += left * slow_.rate * slow_.rate * slow_.rate;
   const double p2 = std::abs(p2_), p3 = std::abs(p3_);
   b.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
   b.second += 2.0 * p2 + 6.0 * p3 * end;
@@ -113,40 +128,50 @@ FreeMotion::Bounds FreeMotion::moving_bounds(double end) const {
   return b;
 }
 
-/// Bounds of all but the polynomial part, for all times.
-FreeMotion::Bounds FreeMotion::oscillation_bounds() const {
-  Bounds b;
+/// Bounds of all but the polynomial part.
+void FreeMotion::find_bounds() {
   const double c = c_factor_, s = s_factor_;
-  const auto add = [&b](double amplitude, double rate) {
-    b.rate += amplitude * rate;
-    b.second += amplitude * rate * rate;
-    b.third += amplitude * rate * rate * rate;
+  const auto add = [this](double amplitude, double rate) {
+    for (Bounds* b : {&early_, &late_}) {
+      b->rate += amplitude * rate;
+      b->second += amplitude * rate * rate;
+      b->third += amplitude * rate * rate * rate;
+    }
   };
+  for (const Sine& sine : sines_) add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
   if (square_ < 0.0) {
-    add(std::hypot(c, (s + decay_ * c) / root_), std::hypot(decay_, root_));
+    fade({std::hypot(c, (s + decay_ * c) / root_), std::hypot(decay_, root_), decay_});
   } else if (square_ > 0.0) {
     // the two decaying exponentials
     const double fast = decay_ + root_, slow = axis_.stiffness / axis_.inertia / fast;
-    add(std::abs(c * fast + s) / (2.0 * root_), slow);
-    add(std::abs(c * slow + s) / (2.0 * root_), fast);
+    slow_ = {std::abs(c * fast + s) / (2.0 * root_), slow, slow};
+    late_rate_ = std::max(late_rate_, slow);
+    fade({std::abs(c * slow + s) / (2.0 * root_), fast, fast});
   } else {
     // (c + g t) exp(-a t): derivative n is at most a^n |c| + a^(n-1) |g| (n + 1/e)
     const double g = std::abs(s + decay_ * c);
     add(std::abs(c), decay_);
-    b.rate += 1.37 * g;
-    b.second += 2.37 * g * decay_;
-    b.third += 3.37 * g * decay_ * decay_;
+    early_.rate += 1.37 * g;
+    early_.second += 2.37 * g * decay_;
+    early_.third += 3.37 * g * decay_ * decay_;
   }
-  for (const Sine& sine : sines_) add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
-  return b;
 }
 
-double FreeMotion::rate() const {
-  if (!axis_.moves) return 0.0;
-  double fastest = square_ > 0.0 ? decay_ + root_ : std::hypot(decay_, root_);
-  for (const Sine& sine : sines_) fastest = std::max(fastest, sine.frequency);
-  return fastest;
+/// Adds the fastest mode to the bounds, to the late ones what is left of it once it has decayed. It falls
+/// monotonically: what bounds it at one time bounds it ever after.
+void FreeMotion::fade(const Mode& fastest) {
+  const double rate = fastest.rate, velocity = fastest.amplitude * rate, third = velocity * rate * rate;
+  const double excess = std::max({velocity / kNoVelocity, third / kNoThird, 1.0});
+  if (fastest.decay > 0.0) decayed_ = std::log(excess) / fastest.decay;
+  early_.rate += velocity;
+  early_.second += velocity * rate;
+  early_.third += third;
+  late_.rate += velocity / excess;
+  late_.second += velocity * rate / excess;
+  late_.third += third / excess;
 }
+
+double FreeMotion::rate(double t) const { return t < decayed_ ? early_rate_ : late_rate_; }
 
 /// Position and velocity of an axis that moves.
 void FreeMotion::move(double t, double& q, double& v) const {

@@ -24,14 +24,14 @@ class FreeMotion {
   void settle();
   bool exact() const { return exact_; }
 
-  /// Largest absolute values of q', q'', q''' between 0 and `end`.
+  /// Largest absolute values of q', q'', q''' between `begin` and `end`.
   struct Bounds {
     double rate = 0.0, second = 0.0, third = 0.0;
   };
-  Bounds bounds(double end) const { return axis_.moves ? moving_bounds(end) : Bounds{}; }
+  Bounds bounds(double begin, double end) const { return axis_.moves ? moving_bounds(begin, end) : Bounds{}; }
 
-  /// Fastest rate of the motion, rad per unit of time.
-  double rate() const;
+  /// Fastest rate of the motion from time t on, rad per unit of time: of all that has not decayed.
+  double rate(double t) const;
 
   /// Position and velocity at time t >= 0 after begin().
   void at(double t, double& q, double& v) const {
@@ -46,8 +46,15 @@ class FreeMotion {
   };
 
   void move(double t, double& q, double& v) const;
-  Bounds moving_bounds(double end) const;
-  Bounds oscillation_bounds() const;
+  Bounds moving_bounds(double begin, double end) const;
+  /// A term amplitude exp(-decay t) of the free motion, or an oscillation within it; its n-th derivative is at most
+  /// amplitude rate^n exp(-decay t).
+  struct Mode {
+    double amplitude = 0.0, rate = 0.0, decay = 0.0;
+  };
+
+  void find_bounds();
+  void fade(const Mode& fastest);
   void homogeneous(double t, double& c_change, double& s) const;
   void add_particular(double t, double& q, double& v) const;
 
@@ -57,7 +64,10 @@ class FreeMotion {
   bool exact_ = true;
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
-  Bounds oscillation_;                                ///< of the parts that the polynomial is not
+  Mode slow_;                                         ///< the slow exponential of an overdamped axis
+  Bounds early_, late_;  ///< of all else but the polynomial: at all times, and once the fastest mode has decayed
+  double early_rate_ = 0.0, late_rate_ = 0.0;
+  double decayed_ = 0.0;  ///< time from which on the late ones hold
   double c_factor_ = 0.0, s_factor_ = 0.0;
   std::vector<Sine> sines_;
 };

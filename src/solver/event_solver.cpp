@@ -239,9 +239,10 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
   if (!flight_.exact()) return false;
   for (const Recovery& recovery : mode_.recoveries)
     if (recovery.deformation > 0.0) return false;
+  const double rate = flight_.rate(segment_.flight_time);
   const FlightOutlook outlook = look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins,
-                                           outcomes_, std::min(longest, kLongestLeap / flight_.rate()));
-  if (!outlook.lands && outlook.time < longest && outlook.time * flight_.rate() < kShortestLeap) return false;
+                                           outcomes_, std::min(longest, kLongestLeap / rate));
+  if (!outlook.lands && outlook.time < longest && outlook.time * rate < kShortestLeap) return false;
   segment_.flight = &flight_;
   segment_.order = 0;
   segment_.loaded_count = 0;
@@ -327,7 +328,8 @@ const Segment& EventSolver::advance(double limit) {
     stays_implicit_ = false;
     series_steps_ = 0;
     // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
-    const bool long_ago = in_flight_ && (now_ - flight_.start()) * flight_.rate() > kLongestFlight;
+    const double flown = in_flight_ ? now_ - flight_.start() : 0.0;
+    const bool long_ago = in_flight_ && flown * flight_.rate(flown) > kLongestFlight;
     if (!in_flight_ || long_ago) flight_.begin(system_, state_, drives, now_);
     in_flight_ = true;
     segment_.flight_time = now_ - flight_.start();

@@ -1,7 +1,5 @@
 #include "solver/flight.h"
 
-#include <algorithm>
-
 namespace vibratory_alignment {
 void Flight::begin(const System& system, const State& state, const DriveForms& drives, const Instant& now) {
   start_ = now;
@@ -13,12 +11,8 @@ void Flight::begin(const System& system, const State& state, const DriveForms& d
     FreeMotion& axis = drives.direction[i] == Direction::x ? x_ : drives.direction[i] == Direction::y ? y_ : phi_;
     axis.add(drives.form[i]);
   }
-  rate_ = 0.0;
   FreeMotion* const axes[] = {&x_, &y_, &phi_};
-  for (FreeMotion* axis : axes) {
-    axis->settle();
-    rate_ = std::max(rate_, axis->rate());
-  }
+  for (FreeMotion* axis : axes) axis->settle();
 }
 
 void Flight::at(double t, State& state) const {

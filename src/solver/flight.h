@@ -1,6 +1,8 @@
 // A flight: the part moves freely, in closed form, from release to the next touch.
 #pragma once
 
+#include <algorithm>
+
 #include "mechanics/free_motion.h"
 #include "solver/motion_series.h"
 
@@ -23,20 +25,21 @@ class Flight {
   /// Forces of the excitations at time t since the start of the flight.
   Load3 drive_at(double t) const;
 
-  /// Fastest rate in the motion, rad per unit of time.
-  double rate() const { return rate_; }
+  /// Fastest rate in the motion from time t since the start of the flight on, rad per unit of time.
+  double rate(double t) const { return std::max({x_.rate(t), y_.rate(t), phi_.rate(t)}); }
 
-  /// Largest absolute values of the derivatives of the coordinates from the start of the flight to `end`.
+  /// Largest absolute values of the derivatives of the coordinates between two times since the start of the flight.
   struct Bounds {
     FreeMotion::Bounds x, y, phi;
   };
-  Bounds bounds(double end) const { return {x_.bounds(end), y_.bounds(end), phi_.bounds(end)}; }
+  Bounds bounds(double begin, double end) const {
+    return {x_.bounds(begin, end), y_.bounds(begin, end), phi_.bounds(begin, end)};
+  }
 
  private:
   Instant start_;
   FreeMotion x_, y_, phi_;
   DriveForms drives_;
-  double rate_ = 1.0;
 };
 
 }  // namespace vibratory_alignment

@@ -97,7 +97,7 @@ class View {
     acceleration_ = {acceleration(system.x, state.x, state.vx, drive.x),
                      acceleration(system.y, state.y, state.vy, drive.y - system.weight)};
     turn_acceleration_ = acceleration(system.phi, state.phi, state.omega, drive.phi);
-    bounds_ = flight.bounds(t + longest);
+    bounds_ = flight.bounds(t, t + longest);
   }
 
   double longest() const { return longest_; }
@@ -189,9 +189,8 @@ class Search {
   FlightOutlook run(const State& state, double longest) {
     FlightOutlook outlook;
     outlook.end = state;
-    const double rate = flight_.rate();
     for (int i = 0; i < kMostLeaps; ++i) {
-      const double left = longest - outlook.time;
+      const double left = longest - outlook.time, rate = flight_.rate(t_ + outlook.time);
       const View view(system_, flight_, t_ + outlook.time, outlook.end, std::min(left, kLongestLeap / rate));
       Nearest nearest;
       if (!find_nearest(view, i == 0, nearest)) break;

@@ -48,7 +48,8 @@ void EnergyAccount::book(const Segment& segment) {
   started_ = true;
   if (first) ledger_.initial = mechanical(segment.begin);
 
-  const int panels = segment.flight ? 1 + static_cast<int>(segment.duration * segment.flight->rate() / kPanel) : 1;
+  const double rate = segment.flight ? segment.flight->rate(segment.flight_time) : 0.0;
+  const int panels = 1 + static_cast<int>(segment.duration * rate / kPanel);
   const double half = 0.5 * segment.duration / panels;
   for (int panel = 0; panel < panels; ++panel)
     for (int i = 0; i < 12; ++i) {

@@ -32,6 +32,23 @@ TEST(Extremes, inertia_from_1e_minus_8_to_1e3) {
     expect_an_end("extremes", {std::string("part.inertia=") + inertia});
 }
 
+// The inertia's own motion is over after some mu/h = 3e-8: then h phi' + k (phi - phi_a) = 0, and a flight is as long
+// as its other motions let it be.
+TEST(Extremes, decayed_motion_does_not_shorten_flights) {
+  Scene scene = test::hard_scene("extremes", {"part.inertia=1.0e-8"});
+  Simulation simulation(scene);
+  int segments = 0;
+  while (simulation.advance() && ++segments < 1000) {
+    const Segment& g = simulation.segment();
+    if (g.event_count == 0 || g.events[0].kind != EventKind::touch) continue;
+    const double slow = 11.0 / 0.31, phi = 0.007 + (0.02 - 0.007) * std::exp(-slow * g.end_time());
+    EXPECT_NEAR(g.end.phi, phi, 1e-7);
+    EXPECT_NEAR(g.end.omega, -slow * (phi - 0.007), 1e-5);
+    break;
+  }
+  EXPECT_LT(segments, 50);
+}
+
 TEST(Extremes, frequency_from_1e_minus_3_to_1e4) {
   for (const char* frequency : {"1.0e-3", "1.0e-1", "1.0e+2", "1.0e+3", "1.0e+4"}) {
     const TrialResult result = expect_an_end("extremes", {std::string("excitation.frequency=") + frequency});

@@ -56,8 +56,8 @@ TEST(FreeMotionBounds, hold_at_every_sampled_time) {
     motion.settle();
     if (!motion.exact()) continue;
     ++tried;
-    const double end = 5.0, h = 1e-4 / std::max(1.0, motion.rate());
-    const FreeMotion::Bounds bounds = motion.bounds(end);
+    const double end = 5.0, h = 1e-4 / std::max(1.0, motion.rate(0.0));
+    const FreeMotion::Bounds bounds = motion.bounds(0.0, end);
     const auto velocity = [&](double t) {
       double q = 0.0, v = 0.0;
       motion.at(t, q, v);
@@ -72,6 +72,32 @@ TEST(FreeMotionBounds, hold_at_every_sampled_time) {
     }
   }
   EXPECT_GT(tried, 200);
+}
+
+// A fast mode that has decayed leaves the slow one, c exp(-r t) with m r^2 - h r + k = 0, and neither more nor less.
+TEST(FreeMotionBounds, forget_what_has_decayed) {
+  Axis axis;
+  axis.moves = true;
+  axis.inertia = 1e-8;
+  axis.inverse_inertia = 1e8;
+  axis.stiffness = 11.0;
+  axis.damping = 0.31;
+  FreeMotion motion(0);
+  motion.begin(axis, 0.02, -3.0, 0.0);
+  motion.settle();
+  const double slow = 2.0 * axis.stiffness / (axis.damping + std::sqrt(axis.damping * axis.damping - 4e-8 * 11.0));
+  const double begin = 1e-5;
+  double q = 0.0, v = 0.0;
+  motion.at(begin, q, v);
+  // the slow mode alone, from a state in which it is alone
+  EXPECT_NEAR(v, -slow * q, 1e-9);
+  const FreeMotion::Bounds bounds = motion.bounds(begin, 1.0);
+  EXPECT_GE(bounds.third * (1.0 + 1e-9), std::abs(q) * slow * slow * slow);
+  EXPECT_NEAR(bounds.third, std::abs(q) * slow * slow * slow, 2e-6 + 1e-9 * bounds.third);
+  EXPECT_NEAR(bounds.rate, std::abs(v), 1e-9);
+  EXPECT_NEAR(motion.rate(begin), slow, 1e-9 * slow);
+  EXPECT_GT(motion.bounds(0.0, 1.0).third, 1e12);
+  EXPECT_GT(motion.rate(0.0), 1e7);
 }
 
 /// The deepest any site of the system is inside the other body.
