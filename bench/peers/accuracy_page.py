@@ -36,7 +36,7 @@ SHOWN = (
     ("the same, dry", "lasting_overdamped_dry", "lasting_overdamped"),
 )
 # Peers that know dry friction are compared on it.
-DRY_PEERS = ("ode_world",)
+DRY_PEERS = ("ode_world_step",)
 
 
 def processor():
