@@ -22,6 +22,9 @@ constexpr double kFlightTolerance = 1e-15;
 constexpr double kSearchShare = 1e-2;
 constexpr int kSearchOrder = 9;
 
+/// Coefficients this large leave no room for what is computed from them.
+constexpr double kNearOverflow = 1e250;
+
 /// Order of the series of motions so fast that their high powers overflow.
 constexpr int kLowOrder = 8;
 
@@ -119,12 +122,14 @@ System saturated(System system, double tolerance) {
 }
 
 /// The last coefficients hold what any of the others is not.
-bool is_finite(const Segment& s) {
+double last_terms(const Segment& s) {
   double sum = s.vx[s.order] + s.vy[s.order] + s.omega[s.order];
   for (int i = 0; i < s.loaded_count; ++i)
     sum += s.loaded[i].normal_force[s.order] + s.loaded[i].tangential_force[s.order];
-  return std::isfinite(sum);
+  return std::abs(sum);
 }
+
+bool is_finite(const Segment& s) { return std::isfinite(last_terms(s)); }
 
 bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
 
@@ -261,7 +266,7 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
 double EventSolver::series_contact_step(const DriveForms& drives) {
   series_.expand_contact(state_, drives, contact_order_, segment_);
   // rates so high that their powers overflow
-  if (!is_finite(segment_)) series_.expand_contact(state_, drives, kLowOrder, segment_);
+  if (!(last_terms(segment_) < kNearOverflow)) series_.expand_contact(state_, drives, kLowOrder, segment_);
   return std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
 }
 
