@@ -51,9 +51,13 @@ double damping_of(const System& system, Face face, double cos_phi, double sin_ph
 }
 
 ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face) {
-  const ContactFrame frame = contact_frame(system, face);
   const double c = std::cos(state.phi), s = std::sin(state.phi);
-  const Vec2 p = site_point(system, state, site, c, s);
+  return contact_kinematics(system, state, site, face, site_point(system, state, site, c, s), c, s);
+}
+
+ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face, const Vec2& p,
+                                     double c, double s) {
+  const ContactFrame frame = contact_frame(system, face);
   ContactKinematics k;
   k.depth = frame.depth(p.x, p.y);
   if (is_part_face(face)) {

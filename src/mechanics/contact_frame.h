@@ -64,4 +64,8 @@ struct ContactKinematics {
 };
 ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face);
 
+/// The same with the site's point (site_point()) and cos and sin of the tilt known.
+ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face, const Vec2& point,
+                                     double cos_phi, double sin_phi);
+
 }  // namespace vibratory_alignment

@@ -14,6 +14,7 @@ struct OutcomeGuards {
 struct FoundEvents {
   double time = kNoEvent;
   int count = 0;
+  bool parts = false;  ///< sticking contacts have to move apart: their forces are at no limit
   std::array<Event, kMaxEvents> events;
 
   static constexpr double kNoEvent = -1.0;

@@ -1,5 +1,5 @@
-// A contact at one state, as contact_kinematics() gives it, but from cos and sin of the tilt that all contacts of the
-// state share: the solvers with a fixed step evaluate many states.
+// A contact at one state with the stiffness and damping of its base, from cos and sin of the tilt that all contacts of
+// the state share: the solvers with a fixed step evaluate many states.
 #pragma once
 
 #include <cmath>
@@ -16,13 +16,9 @@ struct PlacedState {
   double cos_phi, sin_phi;
 };
 
-struct ContactPoint {
-  Vec2 normal, tangent, lever;  ///< n, t, and r = contact point - C, in world axes
-  double depth = 0.0;           ///< d
-  double depth_rate = 0.0;      ///< d'
-  double slip_velocity = 0.0;   ///< V
-  double stiffness = 0.0;       ///< k(n)
-  double damping = 0.0;         ///< h(n)
+struct ContactPoint : ContactKinematics {
+  double stiffness = 0.0;  ///< k(n)
+  double damping = 0.0;    ///< h(n)
 
   /// k d + h d', which is N where it is positive.
   double push() const { return stiffness * depth + damping * depth_rate; }

@@ -29,13 +29,13 @@ constexpr double kNearOverflow = 1e250;
 constexpr int kLowOrder = 8;
 
 /// Shortest flight, in radians of its fastest motion, that is worth a segment of its own without an event at its end.
-constexpr double kShortestLeap = 1.0;
+constexpr double kShortestFlight = 1.0;
 
 /// Largest correction of the time of an event, as a share of the step in which it was found.
 constexpr double kMostCorrection = 0.1;
 
 /// Longest segment in flight, in radians of its fastest motion.
-constexpr double kLongestLeap = 20.0;
+constexpr double kLongestFlightSegment = 20.0;
 
 /// Longest flight in one closed form, in radians of its fastest motion.
 constexpr double kLongestFlight = 6000.0;
@@ -246,8 +246,8 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
     if (recovery.deformation > 0.0) return false;
   const double rate = flight_.rate(segment_.flight_time);
   const FlightOutlook outlook = look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins,
-                                           outcomes_, std::min(longest, kLongestLeap / rate));
-  if (!outlook.lands && outlook.time < longest && outlook.time * rate < kShortestLeap) return false;
+                                           outcomes_, std::min(longest, kLongestFlightSegment / rate));
+  if (!outlook.lands && outlook.time < longest && outlook.time * rate < kShortestFlight) return false;
   segment_.flight = &flight_;
   segment_.order = 0;
   segment_.loaded_count = 0;
@@ -374,6 +374,7 @@ const Segment& EventSolver::advance(double limit) {
     if (contact && must_part()) {
       // friction is decided anew
       holds_here_ = true;
+      found.parts = true;
       found.time = 0.0;
       found.count = 1;
       found.events[0] = {EventKind::slip, first_sticking(mode_.contacts)};

@@ -167,7 +167,7 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
       case EventKind::slip:
         zero_slip[index] = true;
         if (contact.slip != Slip::stick) break;
-        pin_limit(system, segment, site, pins);
+        if (!events.parts) pin_limit(system, segment, site, pins);
         if (segment.coarse && (pins.hold_plus > 0 || pins.hold_minus > 0)) {
           // what N does at once, faster than the step, must not decide
           contact.slip = pins.hold_plus > 0 ? Slip::minus : Slip::plus;
