@@ -32,7 +32,8 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   decay_ = 0.5 * h / m;
   // (a - w)(a + w) loses no digits near critical damping
-  const double frequency = std::sqrt(k / m);
+  pull_ = k / m;
+  const double frequency = std::sqrt(pull_);
   square_ = (decay_ - frequency) * (decay_ + frequency);
   root_ = std::sqrt(std::abs(square_));
 }
@@ -49,12 +50,12 @@ void FreeMotion::add(const DriveForm& form) {
   const double size = axis_.stiffness + axis_.inertia * nu * nu;
   if (!(norm * kLargestGain * kLargestGain > size * size)) exact_ = false;
   const double s = form.amplitude * form.cos_phase, c = form.amplitude * form.sin_phase;
-  sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm});
+  sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm, s, c});
   // a response far larger than the motion cancels against the start
   if (!(std::hypot(sines_.back().sin_amplitude, sines_.back().cos_amplitude) < kLargestGain)) exact_ = false;
 }
 
-void FreeMotion::settle() {
+void FreeMotion::settle(Waves& waves) {
   if (!axis_.moves) return;
   early_rate_ = square_ > 0.0 ? decay_ + root_ : std::hypot(decay_, root_);
   for (const Sine& sine : sines_) late_rate_ = std::max(late_rate_, sine.frequency);
@@ -81,15 +82,31 @@ void FreeMotion::settle() {
     c_factor_ -= sine.cos_amplitude;
     s_factor_ -= sine.frequency * sine.sin_amplitude;
   }
+  if (square_ < 0.0) oscillation_ = waves.add_oscillation(root_);
+  for (Sine& sine : sines_) sine.wave = waves.add_oscillation(sine.frequency);
+  // overdamped: the slow rate without cancellation, and how far apart the two are
+  fall_ = waves.add_decay(square_ > 0.0 ? slow_rate() : decay_);
+  if (square_ > 0.0) ratio_ = waves.add_decay(2.0 * root_);
   find_bounds();
 }
 
+double FreeMotion::slow_rate() const { return pull_ / (decay_ + root_); }
+
+double FreeMotion::acceleration(double t, const Waves::Values& waves, double q, double v) const {
+  double force = constant_ + slope_ * t;
+  for (const Sine& sine : sines_) {
+    const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
+    force += sine.sin_force * (2.0 * half_s * half_c) + sine.cos_force * (1.0 - 2.0 * half_s * half_s);
+  }
+  return axis_.inverse_inertia * (force - axis_.damping * v - axis_.stiffness * (q - axis_.anchor));
+}
+
 /// Change of the particular solution since t = 0.
-void FreeMotion::add_particular(double t, double& q, double& v) const {
+void FreeMotion::add_particular(double t, const Waves::Values& waves, double& q, double& v) const {
   q += t * (p1_ + t * (p2_ + t * p3_));
   v += t * (2.0 * p2_ + t * 3.0 * p3_);
   for (const Sine& sine : sines_) {
-    const double half_s = std::sin(0.5 * sine.frequency * t), half_c = std::cos(0.5 * sine.frequency * t);
+    const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
     const double s = 2.0 * half_s * half_c, c_change = -2.0 * half_s * half_s;
     q += sine.sin_amplitude * s + sine.cos_amplitude * c_change;
     v += sine.frequency * (sine.sin_amplitude * c_change - sine.cos_amplitude * s);
@@ -97,21 +114,19 @@ void FreeMotion::add_particular(double t, double& q, double& v) const {
 }
 
 /// C - 1 and S: S solves the free equation with S(0) = 0, S'(0) = 1; C = S' + 2a S has C(0) = 1, C'(0) = 0.
-void FreeMotion::homogeneous(double t, double& c_change, double& s) const {
+void FreeMotion::homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const {
+  const double fall = waves.change[fall_], envelope = 1.0 + fall;
   if (square_ < 0.0) {
-    const double fall = std::expm1(-decay_ * t), envelope = 1.0 + fall;
-    const double half_s = std::sin(0.5 * root_ * t), half_c = std::cos(0.5 * root_ * t);
+    const double half_s = waves.half_sin[oscillation_], half_c = waves.half_cos[oscillation_];
     s = envelope * 2.0 * half_s * half_c / root_;
     c_change = -2.0 * envelope * half_s * half_s + fall + decay_ * s;
   } else if (square_ > 0.0) {
-    // rates a -+ root; the slow one without cancellation
-    const double fast = decay_ + root_, slow = axis_.stiffness / axis_.inertia / fast;
-    const double slow_change = std::expm1(-slow * t), ratio = -std::expm1(-2.0 * root_ * t);
-    s = (1.0 + slow_change) * ratio / (2.0 * root_);
-    c_change = slow_change + slow * s;
+    // rates a -+ root: the slow one, and their ratio
+    s = envelope * -waves.change[ratio_] / (2.0 * root_);
+    c_change = fall + slow_rate() * s;
   } else {
-    s = t * std::exp(-decay_ * t);
-    c_change = std::expm1(-decay_ * t) + decay_ * s;
+    s = t * envelope;
+    c_change = fall + decay_ * s;
   }
 }
 
@@ -143,7 +158,7 @@ void FreeMotion::find_bounds() {
     fade({std::hypot(c, (s + decay_ * c) / root_), std::hypot(decay_, root_), decay_});
   } else if (square_ > 0.0) {
     // the two decaying exponentials
-    const double fast = decay_ + root_, slow = axis_.stiffness / axis_.inertia / fast;
+    const double fast = decay_ + root_, slow = slow_rate();
     slow_ = {std::abs(c * fast + s) / (2.0 * root_), slow, slow};
     late_rate_ = std::max(late_rate_, slow);
     fade({std::abs(c * slow + s) / (2.0 * root_), fast, fast});
@@ -174,13 +189,13 @@ void FreeMotion::fade(const Mode& fastest) {
 double FreeMotion::rate(double t) const { return t < decayed_ ? early_rate_ : late_rate_; }
 
 /// Position and velocity of an axis that moves.
-void FreeMotion::move(double t, double& q, double& v) const {
+void FreeMotion::move(double t, const Waves::Values& waves, double& q, double& v) const {
   // all as changes since the start: what is far larger than the motion cancels in them
   double c_change = 0.0, s = 0.0;
-  homogeneous(t, c_change, s);
+  homogeneous(t, waves, c_change, s);
   q = start_q_ + c_factor_ * c_change + s_factor_ * s;
-  v = start_v_ - c_factor_ * axis_.stiffness / axis_.inertia * s + s_factor_ * (c_change - 2.0 * decay_ * s);
-  add_particular(t, q, v);
+  v = start_v_ - c_factor_ * pull_ * s + s_factor_ * (c_change - 2.0 * decay_ * s);
+  add_particular(t, waves, q, v);
 }
 
 }  // namespace vibratory_alignment

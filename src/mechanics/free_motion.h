@@ -7,6 +7,7 @@
 
 #include "mechanics/drive.h"
 #include "mechanics/system.h"
+#include "mechanics/waves.h"
 
 namespace vibratory_alignment {
 
@@ -18,10 +19,10 @@ class FreeMotion {
   /// Begins a flight at t = 0 with position q and velocity v. Add the drives next, then call settle().
   void begin(const Axis& axis, double q, double v, double constant_force);
   void add(const DriveForm& form);
-  /// Fixes the constants of the motion. After it, exact() tells whether the closed form holds to roundoff: it does not
-  /// during a chirp and where two of its terms cancel (a nearly undamped axis driven near resonance, a nearly
-  /// vanishing stiffness); the power series of the segment is then as exact.
-  void settle();
+  /// Fixes the constants of the motion and adds what it is made of to `waves`. After it, exact() tells whether the
+  /// closed form holds to roundoff: it does not during a chirp and where two of its terms cancel (a nearly undamped axis
+  /// driven near resonance, a nearly vanishing stiffness); the power series of the segment is then as exact.
+  void settle(Waves& waves);
   bool exact() const { return exact_; }
 
   /// Largest absolute values of q', q'', q''' between `begin` and `end`.
@@ -33,19 +34,24 @@ class FreeMotion {
   /// Fastest rate of the motion from time t on, rad per unit of time: of all that has not decayed.
   double rate(double t) const;
 
-  /// Position and velocity at time t >= 0 after begin().
-  void at(double t, double& q, double& v) const {
+  /// Position and velocity at time t >= 0 after begin(), from the waves at that time.
+  void at(double t, const Waves::Values& waves, double& q, double& v) const {
     q = start_q_;
     v = 0.0;
-    if (axis_.moves) move(t, q, v);
+    if (axis_.moves) move(t, waves, q, v);
   }
+
+  /// Acceleration at time t after begin(), from the position and velocity at that time.
+  double acceleration(double t, const Waves::Values& waves, double q, double v) const;
 
  private:
   struct Sine {
     double frequency, sin_amplitude, cos_amplitude;  ///< of the response
+    double sin_force, cos_force;                     ///< amplitudes of the drive
+    int wave = 0;
   };
 
-  void move(double t, double& q, double& v) const;
+  void move(double t, const Waves::Values& waves, double& q, double& v) const;
   Bounds moving_bounds(double begin, double end) const;
   /// A term amplitude exp(-decay t) of the free motion, or an oscillation within it; its n-th derivative is at most
   /// amplitude rate^n exp(-decay t).
@@ -53,15 +59,17 @@ class FreeMotion {
     double amplitude = 0.0, rate = 0.0, decay = 0.0;
   };
 
+  double slow_rate() const;
   void find_bounds();
   void fade(const Mode& fastest);
-  void homogeneous(double t, double& c_change, double& s) const;
-  void add_particular(double t, double& q, double& v) const;
+  void homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const;
+  void add_particular(double t, const Waves::Values& waves, double& q, double& v) const;
 
   Axis axis_;
   double start_q_ = 0.0, start_v_ = 0.0;
   double constant_ = 0.0, slope_ = 0.0;
   bool exact_ = true;
+  double pull_ = 0.0;                                 ///< k/m
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
   Mode slow_;                                         ///< the slow exponential of an overdamped axis
@@ -69,6 +77,7 @@ class FreeMotion {
   double early_rate_ = 0.0, late_rate_ = 0.0;
   double decayed_ = 0.0;  ///< time from which on the late ones hold
   double c_factor_ = 0.0, s_factor_ = 0.0;
+  int oscillation_ = 0, fall_ = 0, ratio_ = 0;  ///< places of its own oscillation and decays among the waves
   std::vector<Sine> sines_;
 };
 

@@ -1,6 +1,7 @@
 #include "solver/flight.h"
 
 namespace vibratory_alignment {
+
 void Flight::begin(const System& system, const State& state, const DriveForms& drives, const Instant& now) {
   start_ = now;
   drives_ = drives;
@@ -11,14 +12,33 @@ void Flight::begin(const System& system, const State& state, const DriveForms& d
     FreeMotion& axis = drives.direction[i] == Direction::x ? x_ : drives.direction[i] == Direction::y ? y_ : phi_;
     axis.add(drives.form[i]);
   }
+  waves_.clear();
   FreeMotion* const axes[] = {&x_, &y_, &phi_};
-  for (FreeMotion* axis : axes) axis->settle();
+  for (FreeMotion* axis : axes) axis->settle(waves_);
+}
+
+void Flight::at(double t, const Waves::Values& waves, State& state) const {
+  if (x_.exact()) x_.at(t, waves, state.x, state.vx);
+  if (y_.exact()) y_.at(t, waves, state.y, state.vy);
+  if (phi_.exact()) phi_.at(t, waves, state.phi, state.omega);
 }
 
 void Flight::at(double t, State& state) const {
-  if (x_.exact()) x_.at(t, state.x, state.vx);
-  if (y_.exact()) y_.at(t, state.y, state.vy);
-  if (phi_.exact()) phi_.at(t, state.phi, state.omega);
+  Waves::Values waves;
+  waves_.at(t, waves);
+  at(t, waves, state);
+}
+
+Flight::Motion Flight::motion_at(double t) const {
+  Waves::Values waves;
+  waves_.at(t, waves);
+  Motion motion;
+  State& state = motion.state;
+  at(t, waves, state);
+  motion.ax = x_.acceleration(t, waves, state.x, state.vx);
+  motion.ay = y_.acceleration(t, waves, state.y, state.vy);
+  motion.alpha = phi_.acceleration(t, waves, state.phi, state.omega);
+  return motion;
 }
 
 Load3 Flight::drive_at(double t) const {

@@ -22,6 +22,13 @@ class Flight {
   /// `state`.
   void at(double t, State& state) const;
 
+  /// State and accelerations x'', y'', phi'' at time t since the start of an exact flight.
+  struct Motion {
+    State state;
+    double ax = 0.0, ay = 0.0, alpha = 0.0;
+  };
+  Motion motion_at(double t) const;
+
   /// Forces of the excitations at time t since the start of the flight.
   Load3 drive_at(double t) const;
 
@@ -37,8 +44,11 @@ class Flight {
   }
 
  private:
+  void at(double t, const Waves::Values& waves, State& state) const;
+
   Instant start_;
   FreeMotion x_, y_, phi_;
+  Waves waves_;
   DriveForms drives_;
 };
 

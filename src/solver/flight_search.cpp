@@ -21,8 +21,9 @@ constexpr int kHalvings = 8;
 /// A landing is looked for until so many times its estimate.
 constexpr double kLandingSpan = 1.5;
 
-/// Halley's method has arrived when its step is this small beside the span: the next would be its cube.
-constexpr double kLastStep = 1e-8;
+/// Halley's method has arrived when its step is this small beside the span: the next would be its cube, or with an
+/// estimated acceleration a part of its square.
+constexpr double kLastStep = 1e-7;
 constexpr int kMostSteps = 8;
 
 /// A condition ahead: value + rate s + 1/2 acceleration s^2, with an error of at most 1/6 jerk s^3.
@@ -88,17 +89,15 @@ Vec2 turned(const Vec2& v) { return {-v.y, v.x}; }
 /// The flight as seen at one of its times.
 class View {
  public:
-  View(const System& system, const Flight& flight, double t, const State& state, double longest)
-      : system_(system), state_(state), longest_(longest), c_(std::cos(state.phi)), s_(std::sin(state.phi)) {
-    const Load3 drive = flight.drive_at(t);
-    const auto acceleration = [](const Axis& axis, double q, double v, double force) {
-      return axis.inverse_inertia * (force - axis.damping * v - axis.stiffness * (q - axis.anchor));
-    };
-    acceleration_ = {acceleration(system.x, state.x, state.vx, drive.x),
-                     acceleration(system.y, state.y, state.vy, drive.y - system.weight)};
-    turn_acceleration_ = acceleration(system.phi, state.phi, state.omega, drive.phi);
-    bounds_ = flight.bounds(t, t + longest);
-  }
+  View(const System& system, const Flight& flight, double t, const Flight::Motion& motion, double longest)
+      : system_(system),
+        state_(motion.state),
+        longest_(longest),
+        c_(std::cos(state_.phi)),
+        s_(std::sin(state_.phi)),
+        acceleration_{motion.ax, motion.ay},
+        turn_acceleration_(motion.alpha),
+        bounds_(flight.bounds(t, t + longest)) {}
 
   double longest() const { return longest_; }
 
@@ -159,7 +158,7 @@ class View {
   const State& state_;
   double longest_, c_, s_;
   Vec2 acceleration_;
-  double turn_acceleration_ = 0.0;
+  double turn_acceleration_;
   Flight::Bounds bounds_;
 };
 
@@ -188,10 +187,11 @@ class Search {
 
   FlightOutlook run(const State& state, double longest) {
     FlightOutlook outlook;
-    outlook.end = state;
+    Flight::Motion motion = flight_.motion_at(t_);
+    motion.state = outlook.end = state;
     for (int i = 0; i < kMostLeaps; ++i) {
       const double left = longest - outlook.time, rate = flight_.rate(t_ + outlook.time);
-      const View view(system_, flight_, t_ + outlook.time, outlook.end, std::min(left, kLongestLeap / rate));
+      const View view(system_, flight_, t_ + outlook.time, motion, std::min(left, kLongestLeap / rate));
       Nearest nearest;
       if (!find_nearest(view, i == 0, nearest)) break;
       const double time = std::min(nearest.time, view.longest());
@@ -202,7 +202,8 @@ class Search {
         return outlook;
       }
       outlook.time = time == left ? longest : outlook.time + time;
-      flight_.at(t_ + outlook.time, outlook.end);
+      motion = flight_.motion_at(t_ + outlook.time);
+      outlook.end = motion.state;
       if (outlook.time >= longest) break;
     }
     return outlook;
@@ -295,17 +296,17 @@ class Search {
     return (pinned || force < 0.0) && rate + 0.5 * bend * span < 0.0;
   }
 
-  /// The zero of a site's depth within `span` from the outlook's end, by Halley's method on the closed form, with the
-  /// acceleration that the curve starts with.
+  /// The zero of a site's depth within `span` from the outlook's end, by Halley's method on the closed form.
   bool find_crossing(Site site, Face face, const Curve& crossing, double span, FlightOutlook& outlook) const {
-    double s = span / kLandingSpan;
+    double s = span / kLandingSpan, acceleration = crossing.acceleration;
     for (int i = 0; i < kMostSteps; ++i) {
       State state;
       flight_.at(t_ + outlook.time + s, state);
       const ContactKinematics k = contact_kinematics(system_, state, site, face);
-      const double newton = -k.depth / k.depth_rate;
-      const double acceleration = (k.depth_rate > 0.0 ? 1.0 : -1.0) * crossing.acceleration;
-      const double step = newton / (1.0 + 0.5 * newton * acceleration / k.depth_rate);
+      const double newton = -k.depth / k.depth_rate, rate = std::abs(k.depth_rate);
+      // the acceleration changes steadily
+      if (i == 0) acceleration = 2.0 * (rate - crossing.rate) / s - acceleration;
+      const double step = newton / (1.0 + 0.5 * newton * acceleration / rate);
       s += step;
       if (!(s >= 0.0 && s <= span)) return false;
       if (std::abs(step) > kLastStep * span) continue;

@@ -1,15 +1,11 @@
 // Part of MotionSeries: the most frequent case, one contact that slides, in a loop of its own.
 #include <cmath>
 
+#include "mechanics/quad.h"
 #include "solver/motion_series.h"
 
 namespace vibratory_alignment {
 namespace {
-
-/// Four numbers at once: one register where the processor has AVX, else two. The results are the same to the bit.
-using Quad = double __attribute__((vector_size(32)));
-
-#define VIBRATORY_ALIGNMENT_INLINE __attribute__((always_inline)) inline
 
 /// Powers as factors of products, each number as often as it is needed. The product of power k sums left j with
 /// right k - j.

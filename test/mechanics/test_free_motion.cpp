@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/lone_motion.h"
 #include "../support/quad.h"
 
 namespace vibratory_alignment {
@@ -18,7 +19,7 @@ using test::Quad;
 using test::QuadMatrix;
 
 struct Motion {
-  double q, v;
+  double q, v, a;
 };
 
 Axis axis_of(double inertia, double damping, double stiffness, double anchor) {
@@ -75,13 +76,16 @@ Motion exponential_solution(const Axis& axis, double q, double v, double force, 
     z[s] = Quad(form.amplitude) * Quad(form.sin_phase);
     z[c] = Quad(form.amplitude) * Quad(form.cos_phase);
   }
-  for (auto& row : a)
+  QuadMatrix scaled = a;
+  for (auto& row : scaled)
     for (Quad& entry : row) entry *= t;
-  const QuadMatrix e = test::exponential(a);
-  Quad end[2] = {0, 0};
-  for (std::size_t i = 0; i < 2; ++i)
+  const QuadMatrix e = test::exponential(scaled);
+  std::vector<Quad> end(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) end[i] += e[i][j] * z[j];
-  return {static_cast<double>(end[0]), static_cast<double>(end[1])};
+  Quad acceleration = 0;
+  for (std::size_t j = 0; j < n; ++j) acceleration += a[1][j] * end[j];
+  return {static_cast<double>(end[0]), static_cast<double>(end[1]), static_cast<double>(acceleration)};
 }
 
 struct Load {
@@ -105,7 +109,7 @@ const std::vector<Load>& loads() {
 
 /// Compares at time t. The digits that may be lost: `gain` of them to cancelling terms, and those of the phase w t,
 /// since the axis' own frequency w is a rounded number.
-void expect_motion(const FreeMotion& motion, const Motion& expected, const Axis& axis, double t, double gain) {
+void expect_motion(const test::LoneMotion& motion, const Motion& expected, const Axis& axis, double t, double gain) {
   double q = 0.0, v = 0.0;
   motion.at(t, q, v);
   const double w = std::sqrt(axis.stiffness / axis.inertia);
@@ -113,6 +117,11 @@ void expect_motion(const FreeMotion& motion, const Motion& expected, const Axis&
   const double error = 2.2e-16 * (gain + 2.0 * w * t) * size;
   EXPECT_NEAR(q, expected.q, error) << "t = " << t;
   EXPECT_NEAR(v, expected.v, error * (1.0 + w)) << "t = " << t;
+  // the equation of motion passes on the errors of q and v
+  const double stiffness = axis.stiffness / axis.inertia, damping = axis.damping / axis.inertia;
+  const double forces = 2.2e-16 * (1.0 + std::abs(expected.a));
+  EXPECT_NEAR(motion.acceleration(t), expected.a, error * (stiffness + damping * (1.0 + w)) + gain * forces)
+      << "t = " << t;
 }
 
 enum class Slopes { with, without };
@@ -123,7 +132,7 @@ void expect_solution(const Axis& axis, double longest, Slopes slopes = Slopes::w
   for (const Load& load : loads()) {
     SCOPED_TRACE(load.name);
     if (slopes == Slopes::without && !load.forms.empty() && load.forms.back().slope != 0.0) continue;
-    FreeMotion motion(load.forms.size());
+    test::LoneMotion motion(load.forms.size());
     motion.begin(axis, q0, v0, load.force);
     for (const DriveForm& form : load.forms) motion.add(form);
     motion.settle();
@@ -160,7 +169,7 @@ TEST(FreeMotion, hugely_overdamped) { expect_solution(axis_of(1.0, 1e6, 1.0, 0.6
 TEST(FreeMotion, nearly_vanishing_stiffness) {
   for (const double k : {1e-3, 1e-8, 1e-14, 1e-30}) {
     const Axis axis = axis_of(1.0, 0.05, k, 0.2);
-    FreeMotion motion(1);
+    test::LoneMotion motion(1);
     motion.begin(axis, 0.83, -0.37, 0.0);
     motion.add(sine(1.0, 20.0, 0.4));
     motion.settle();
@@ -174,7 +183,7 @@ TEST(FreeMotion, nearly_vanishing_stiffness) {
 
 /// exact() of an axis under one drive; when it is claimed, the claim is checked.
 bool claims_exact(const Axis& axis, const DriveForm& form, double force = 0.0) {
-  FreeMotion motion(1);
+  test::LoneMotion motion(1);
   motion.begin(axis, 0.2, 0.1, force);
   motion.add(form);
   motion.settle();
@@ -232,7 +241,7 @@ TEST(FreeMotion, a_locked_axis_stands_still) {
   Axis axis = axis_of(1.0, 0.1, 1.0, 0.6);
   axis.moves = false;
   axis.inverse_inertia = 0.0;
-  FreeMotion motion(1);
+  test::LoneMotion motion(1);
   motion.begin(axis, 0.3, 0.0, -1.0);
   motion.add(sine(1.0, 20.0, 0.4));
   motion.settle();
@@ -254,7 +263,7 @@ TEST(FreeMotion, starts_where_it_starts) {
       for (int i = 0; i < 20; ++i) {
         const double q0 = u(random), v0 = u(random),
                      nu = (1.0 + off) * std::sqrt(axis.stiffness / axis.inertia) + (axis.stiffness == 0.0);
-        FreeMotion motion(2);
+        test::LoneMotion motion(2);
         motion.begin(axis, q0, v0, u(random));
         motion.add(sine(10.0 * u(random), nu, 3.0 * u(random)));
         motion.add(constant(u(random), u(random)));
@@ -272,12 +281,12 @@ TEST(FreeMotion, starts_where_it_starts) {
 // A new flight knows nothing of the one before it.
 TEST(FreeMotion, begins_anew) {
   const Axis axis = axis_of(1.0, 0.05, 1.0, 0.6);
-  FreeMotion used(2), fresh(2);
+  test::LoneMotion used(2), fresh(2);
   used.begin(axis_of(1.0, 0.0, 0.0, 0.0), 5.0, 1.0, 2.0);
   used.add(sine(1.0, 3.0, 1.0));
   used.add(constant(0.3, 0.4));
   used.settle();
-  for (FreeMotion* motion : {&used, &fresh}) {
+  for (test::LoneMotion* motion : {&used, &fresh}) {
     motion->begin(axis, 0.83, -0.37, -0.2);
     motion->add(sine(1.0, 20.0, 0.4));
     motion->settle();

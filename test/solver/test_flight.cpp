@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "../support/lone_motion.h"
 #include "../support/random_scenes.h"
 #include "../support/scenes.h"
 #include "mechanics/site_rules.h"
@@ -50,7 +51,7 @@ TEST(FreeMotionBounds, hold_at_every_sampled_time) {
     axis.damping = i % 5 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
     if (i % 11 == 0) axis.damping = 2.0 * std::sqrt(axis.stiffness * axis.inertia);
     const DriveForms drives = random_drives(random);
-    FreeMotion motion(static_cast<std::size_t>(drives.count));
+    test::LoneMotion motion(static_cast<std::size_t>(drives.count));
     motion.begin(axis, u(random), u(random), 0.3 * u(random));
     for (std::size_t k = 0; k < static_cast<std::size_t>(drives.count); ++k) motion.add(drives.form[k]);
     motion.settle();
@@ -82,7 +83,7 @@ TEST(FreeMotionBounds, forget_what_has_decayed) {
   axis.inverse_inertia = 1e8;
   axis.stiffness = 11.0;
   axis.damping = 0.31;
-  FreeMotion motion(0);
+  test::LoneMotion motion(0);
   motion.begin(axis, 0.02, -3.0, 0.0);
   motion.settle();
   const double slow = 2.0 * axis.stiffness / (axis.damping + std::sqrt(axis.damping * axis.damping - 4e-8 * 11.0));

@@ -1,0 +1,11 @@
+// Four numbers at once: one register where the processor has AVX, else two. The results are the same to the bit.
+#pragma once
+
+namespace vibratory_alignment {
+
+using Quad = double __attribute__((vector_size(32)));
+
+/// For what has to become part of a function that is compiled for AVX.
+#define VIBRATORY_ALIGNMENT_INLINE __attribute__((always_inline)) inline
+
+}  // namespace vibratory_alignment
