@@ -99,8 +99,8 @@ class Search {
       const double start = force + axis.stiffness * (std::abs(q[0] - axis.anchor) + speed * h) + axis.damping * speed;
       return axis.inverse_inertia * start / (1.0 - feedback);
     }
-    double sum = 0.0, power = 1.0;
-    for (int k = 1; k <= order_; ++k, power *= h) sum += k * std::abs(v[k]) * power;
+    double sum = 0.0;
+    for (int k = order_; k >= 1; --k) sum = sum * h + k * std::abs(v[k]);
     return sum;
   }
 

@@ -194,7 +194,8 @@ double EventSolver::tanh_layer_step() const {
     const ContactSeries& contact = segment_.loaded[static_cast<std::size_t>(i)];
     if (segment_.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::regularized) continue;
     const double eps = system_.regularization;
-    const double reach = std::min(0.6 * std::hypot(contact.slip_velocity[0], 1.57 * eps), 4.0 * eps);
+    const double v0 = contact.slip_velocity[0], pole = 1.57 * eps;
+    const double reach = std::min(0.6 * std::sqrt(v0 * v0 + pole * pole), 4.0 * eps);
     const double v1 = std::abs(contact.slip_velocity[1]), v2 = std::abs(contact.slip_velocity[2]);
     // v1 h + v2 h^2 = reach
     const double step = 2.0 * reach / (v1 + std::sqrt(v1 * v1 + 4.0 * v2 * reach));
@@ -225,7 +226,8 @@ void EventSolver::go_to_end() {
   if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
   state_ = segment_.end;
   mode_ = next_mode_;
-  drives_ = next_drives_;
+  if (drives_change_) drives_ = next_drives_;
+  drives_change_ = false;
   counts_.events += segment_.event_count;
   bool rings = false;
   for (int i = 0; i < segment_.event_count; ++i) {
@@ -314,7 +316,9 @@ const Segment& EventSolver::advance(double limit) {
   }
   if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
 
-  const DriveForms drives = forms_at(drives_, now_);
+  if (!forms_known_) forms_ = forms_at(drives_, now_);
+  forms_known_ = false;
+  const DriveForms& drives = forms_;
   const double to_limit = std::max(0.0, limit - now_);
   const double to_kink = time_to_kink(drives_, now_);
   segment_.start = now_;
@@ -411,16 +415,20 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
     recovery.deformation *= std::exp(-recovery.rate * segment_.duration);
     if (recovery.deformation < kNoDeformation) recovery = {};
   }
-  next_drives_ = drives_;
+  if (drives_change_) next_drives_ = drives_;
+  drives_change_ = kink;
   if (kink)
     for (Drive& drive : next_drives_)
       if (drive.time_to_kink(segment_.start) <= segment_.duration) drive.pass_kink();
 
   segment_.event_count = 0;
-  if (found.count > 0 || kink)
-    next_mode_ = apply_events(system_, segment_, next_mode_, forms_at(next_drives_, end), friction_, found);
-  else if (segment_.duration > 0.0)
+  forms_known_ = found.count > 0 || kink;
+  if (forms_known_) {
+    forms_ = forms_at(next_drives_, end);
+    next_mode_ = apply_events(system_, segment_, next_mode_, forms_, friction_, found);
+  } else if (segment_.duration > 0.0) {
     next_mode_.pins = {};
+  }
   for (int i = 0; i < found.count; ++i)
     segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
   if (kink && segment_.event_count < kMaxEvents)
@@ -439,6 +447,8 @@ void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
   const Instant when = started_ ? segment_.start + segment_.duration : now_;
   for (std::size_t i = 0; i < drives.size() && i < excitations.size(); ++i) drives[i].change(excitations[i], when);
   if (!started_) next_drives_ = drives_;
+  drives_change_ = started_;
+  forms_known_ = false;
   forces_jump();
 }
 
@@ -461,9 +471,13 @@ State state_at(const Segment& segment, double t) {
     segment.flight->at(segment.flight_time + t, state);
     return state;
   }
-  const int order = segment.order;
-  return {value_at(segment.x, order, t),  value_at(segment.y, order, t),  value_at(segment.phi, order, t),
-          value_at(segment.vx, order, t), value_at(segment.vy, order, t), value_at(segment.omega, order, t)};
+  // Horner's rule on all six at once: none waits for another
+  int k = segment.order;
+  State q{segment.x[k], segment.y[k], segment.phi[k], segment.vx[k], segment.vy[k], segment.omega[k]};
+  while (--k >= 0)
+    q = {q.x * t + segment.x[k],   q.y * t + segment.y[k],   q.phi * t + segment.phi[k],
+         q.vx * t + segment.vx[k], q.vy * t + segment.vy[k], q.omega * t + segment.omega[k]};
+  return q;
 }
 
 }  // namespace vibratory_alignment

@@ -49,6 +49,9 @@ class EventSolver final : public Solver {
   State state_;                   ///< at now_
   ContactMode mode_, next_mode_;  ///< during the segment, and from its end on
   std::vector<Drive> drives_, next_drives_;
+  bool drives_change_ = false;  ///< next_drives_ are others than drives_
+  DriveForms forms_;            ///< of the drives, from now_ on; once the segment's end is prepared, from there on
+  bool forms_known_ = false;    ///< forms_ are those of the next segment
   OutcomeGuards outcomes_;
   bool started_ = false;
 

@@ -20,20 +20,17 @@ double rough_log2(double value) {
 }
 
 /// log2 of the time at which the terms `order` - 1 and `order` have both fallen to `tolerance` times the largest
-/// leading term.
+/// leading term. What is zero counts as 2^-1023.
 double log2_step(const Series& v, int order, double log2_tolerance) {
-  double shortest = kInfinity;
-  double leading[kLeadingTerms];
+  double leading[kLeadingTerms], step[2];
   for (int j = 0; j < kLeadingTerms; ++j) leading[j] = log2_tolerance + rough_log2(std::abs(v[j]));
-  for (int k = order - 1; k <= order; ++k) {
-    if (v[k] == 0.0) continue;
+  for (int i = 0; i < 2; ++i) {
+    const int k = order - i;
     const double last = rough_log2(std::abs(v[k]));
-    double longest = -kInfinity;
-    for (int j = 0; j < kLeadingTerms; ++j)
-      if (v[j] != 0.0) longest = std::max(longest, (leading[j] - last) * kInverse[k - j]);
-    shortest = std::min(shortest, longest);
+    step[i] = (leading[0] - last) * kInverse[k];
+    for (int j = 1; j < kLeadingTerms; ++j) step[i] = std::max(step[i], (leading[j] - last) * kInverse[k - j]);
   }
-  return shortest;
+  return std::min(step[0], step[1]);
 }
 
 }  // namespace

@@ -62,7 +62,10 @@ initial: {x: 0.0, y: 1.1, phi: 0.0}
 trial: {time_limit: 20.0, inserted_depth: 0.3}
 )";
 
-TEST(Symmetry, a_symmetric_scene_stays_symmetric_exactly) {
+/// Far below rounding of what the motion is made of: that of the forces of a contact which ends with N = 1e-14.
+constexpr double kNothing = 1e-28;
+
+TEST(Symmetry, a_symmetric_scene_stays_symmetric) {
   for (const char* law : {"friction={coefficient: 0.3}", "friction={coefficient: 0.3, regularization: 2.0e-3}",
                           "friction=null", "base.recovery=true"}) {
     const Scene scene = test::scene_of(straight, {law});
@@ -70,10 +73,10 @@ TEST(Symmetry, a_symmetric_scene_stays_symmetric_exactly) {
     const TrialResult result = run(
         scene,
         [&](const Segment& g) {
-          ASSERT_EQ(g.end.x, 0.0);
-          ASSERT_EQ(g.end.phi, 0.0);
-          ASSERT_EQ(g.end.vx, 0.0);
-          ASSERT_EQ(g.end.omega, 0.0);
+          ASSERT_LT(std::abs(g.end.x), kNothing);
+          ASSERT_LT(std::abs(g.end.phi), kNothing);
+          ASSERT_LT(std::abs(g.end.vx), kNothing);
+          ASSERT_LT(std::abs(g.end.omega), kNothing);
           const bool one = g.contacts[static_cast<std::size_t>(Site::b1_floor)].touching();
           const bool other = g.contacts[static_cast<std::size_t>(Site::b2_floor)].touching();
           ASSERT_EQ(one, other);
