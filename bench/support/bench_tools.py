@@ -23,14 +23,31 @@ def output_of(command):
     return process.stdout
 
 
+def count(command, folder):
+    """What the program prints, under callgrind; its files go to the folder."""
+    return output_of(["valgrind", "--tool=callgrind", "--log-file=" + os.path.join(folder, "log"),
+                      "--toggle-collect=" + COUNTED, "--callgrind-out-file=" + os.path.join(folder, "out")] + command)
+
+
 def instructions_of(command):
     """(what the program prints, instructions in Simulation::advance), under callgrind."""
     with tempfile.TemporaryDirectory(prefix="bench_") as folder:
-        log = os.path.join(folder, "log")
-        text = output_of(["valgrind", "--tool=callgrind", "--log-file=" + log, "--toggle-collect=" + COUNTED,
-                          "--callgrind-out-file=" + os.path.join(folder, "out")] + command)
-        with open(log) as file:
+        text = count(command, folder)
+        with open(os.path.join(folder, "log")) as file:
             return text, int(re.search(r"Collected : (\d+)", file.read()).group(1))
+
+
+def instructions_by_function(command, functions):
+    """(what the program prints, {function: instructions in it and in all that it calls}) in Simulation::advance."""
+    with tempfile.TemporaryDirectory(prefix="bench_") as folder:
+        text = count(command, folder)
+        listing = output_of(["callgrind_annotate", "--inclusive=yes", "--threshold=100", os.path.join(folder, "out")])
+    found = {}
+    for line in listing.splitlines():
+        entry = re.match(r" *([\d,]+) \([ \d.]+%\)\s+\S+?:(?:vibratory_alignment::)?([\w:]+)\(", line)
+        if entry and entry.group(2) in functions:
+            found[entry.group(2)] = max(found.get(entry.group(2), 0), int(entry.group(1).replace(",", "")))
+    return text, {name: found.get(name, 0) for name in functions}
 
 
 def stamp(command):

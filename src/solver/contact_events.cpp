@@ -99,8 +99,8 @@ class Search {
       const double start = force + axis.stiffness * (std::abs(q[0] - axis.anchor) + speed * h) + axis.damping * speed;
       return axis.inverse_inertia * start / (1.0 - feedback);
     }
-    double sum = 0.0;
-    for (int k = order_; k >= 1; --k) sum = sum * h + k * std::abs(v[k]);
+    double sum = 0.0, power = order_;
+    for (int k = order_; k >= 1; --k, power -= 1.0) sum = sum * h + power * std::abs(v[k]);
     return sum;
   }
 
@@ -303,21 +303,19 @@ class Search {
   /// Both lower corners below `depth` and, if asked, between the walls (a corner that presses into a wall is).
   void guard_depth(EventKind kind, double depth, bool between_walls) {
     const double l = system_.slot_half_width;
+    const RegionCondition asked[] = {
+        {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
+    const auto count = [&](Site site) { return between_walls && !presses_wall(site) ? 3 : 1; };
+    // mostly one of them surely fails throughout
+    for (const Site site : {Site::b1, Site::b2}) {
+      const PointBound bound = bound_point(site);
+      for (int j = 0; j < count(site); ++j)
+        if (largest(asked[j], bound, 1.0, false) < 0.0) return;
+    }
     Conditions conditions;
     conditions.count = 0;
-    const auto add = [&](const RegionCondition& condition, Site site) {
-      conditions.g[conditions.count++] = condition_series(condition, site);
-    };
-    for (const Site site : {Site::b1, Site::b2}) {
-      const Region below{{RegionCondition{0.0, -1.0, -depth, Face::none}}, 1};
-      if (stays_outside(site, below, Face::none)) return;
-      add(below.conditions[0], site);
-    }
-    for (const Site site : {Site::b1, Site::b2}) {
-      if (!between_walls || presses_wall(site)) continue;
-      add({1.0, 0.0, l, Face::none}, site);
-      add({-1.0, 0.0, l, Face::none}, site);
-    }
+    for (const Site site : {Site::b1, Site::b2})
+      for (int j = 0; j < count(site); ++j) conditions.g[conditions.count++] = condition_series(asked[j], site);
     offer(first_entry(conditions, order_, duration_).time, kind, Site::b1);
   }
 

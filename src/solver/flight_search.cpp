@@ -233,17 +233,22 @@ class Search {
         nearest.region = region;
       }
     }
-    if (outcomes_.aligned) outcome_ahead(view, system_.aligned_depth, nearest);
-    if (outcomes_.inserted) outcome_ahead(view, system_.inserted_depth, nearest);
+    if (outcomes_.aligned) outcome_ahead(view, system_.aligned_depth, true, nearest);
+    if (outcomes_.inserted) outcome_ahead(view, system_.inserted_depth, false, nearest);
     return true;
   }
 
-  /// Both corners have to be below `depth`.
-  void outcome_ahead(const View& view, double depth, Nearest& nearest) const {
-    const RegionCondition below{0.0, -1.0, -depth, Face::none};
+  /// Both corners have to be below `depth` and, if asked, between the walls.
+  void outcome_ahead(const View& view, double depth, bool between_walls, Nearest& nearest) const {
+    const double l = system_.slot_half_width;
+    const RegionCondition asked[] = {
+        {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
     double time = 0.0;
-    for (const Site site : {Site::b1, Site::b2})
-      if (time < view.longest()) time = std::max(time, view.point(site).along(below).time_below(view.longest(), false));
+    for (const Site site : {Site::b1, Site::b2}) {
+      const PointMotion motion = view.point(site);
+      for (int j = 0; j < (between_walls ? 3 : 1) && time < view.longest(); ++j)
+        time = std::max(time, motion.along(asked[j]).time_below(view.longest(), false));
+    }
     if (nearest.take(time)) nearest.is_outcome = true;
   }
 
