@@ -67,8 +67,8 @@ constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
 /// Series steps in one contact before an implicit one is tried.
 constexpr int kTrialAfter = 32;
 
-/// Shortest step worth trying, in series steps.
-constexpr double kShortestTrial = 2.0;
+/// Shortest step worth trying, in series steps, and that at the very start, where nothing is known yet.
+constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0;
 
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
@@ -110,9 +110,8 @@ bool any_loaded(const ContactStates& contacts) {
 }
 
 bool any_in_layer(const ContactStates& contacts) {
-  return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) {
-    return c.phase == Phase::loaded && c.slip == Slip::regularized;
-  });
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const ContactState& c) { return c.phase == Phase::loaded && c.slip == Slip::regularized; });
 }
 
 Site first_sticking(const ContactStates& contacts) {
@@ -290,6 +289,12 @@ double EventSolver::direction_step(double step, double point_tolerance) {
 /// it, and when it is used up the series take over again.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
   double shortest = 0.0;
+  if (method_ == ContactMethod::automatic && counts_.steps == 1) {
+    // a contact at the start does not come out of an impact: its ring may be small enough to be passed over
+    series_step_ = series_contact_step(drives);
+    shortest = kShortestFirst * series_step_;
+    stays_implicit_ = true;
+  }
   if (method_ == ContactMethod::automatic && !stays_implicit_ && series_steps_ >= kTrialAfter &&
       credit_ >= kTrialShare * kTrialAfter) {
     implicit_.suggest(2.0 * kImplicitCost * series_step_);
