@@ -9,9 +9,6 @@ namespace {
 
 double moment_of(const Vec2& lever, const Vec2& force) { return lever.x * force.y - lever.y * force.x; }
 
-/// Rounding of V' relative to its size: forces of contacts that hold the same motion are not resolved beyond.
-constexpr double kRounding = 1e-14;
-
 }  // namespace
 
 void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
@@ -28,8 +25,8 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
     const ContactState& contact = contacts[i];
     if (contact.phase != Phase::loaded) continue;
     const auto index = static_cast<std::size_t>(forces.count);
-    const ContactKinematics& k = kinematics[index] =
-        contact_kinematics(system, state, static_cast<Site>(i), contact.face);
+    const ContactKinematics& k = kinematics[index] = contact_kinematics(
+        system, state, static_cast<Site>(i), contact.face, site_point(system, state, static_cast<Site>(i), c, s), c, s);
     ContactForce& force = forces.contact[index];
     force.site = static_cast<Site>(i);
     force.depth = k.depth;
@@ -62,33 +59,26 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
   if (sticking_count == 0) return;
 
   // T of what sticks takes out what is left of V'
-  Mobility::Matrix matrix{};
   Mobility::Vector rhs{}, noise{};
-  std::array<double, kSiteCount> arm{};
+  Mobility::Directions tangents{};
   for (int m = 0; m < sticking_count; ++m) {
     const ContactKinematics& k = kinematics[static_cast<std::size_t>(sticking[m])];
-    arm[m] = moment_of(k.lever, k.tangent);
-    const double along_x = forces.ax * k.tangent.x, along_y = forces.ay * k.tangent.y, turning = forces.alpha * arm[m];
+    const double arm = moment_of(k.lever, k.tangent);
+    tangents[m] = {k.tangent.x, k.tangent.y, arm};
+    const double along_x = forces.ax * k.tangent.x, along_y = forces.ay * k.tangent.y, turning = forces.alpha * arm;
     rhs[m] = -(along_x + along_y + turning + k.slip_rate);
-    noise[m] = kRounding * (std::abs(along_x) + std::abs(along_y) + std::abs(turning) + std::abs(k.slip_rate));
+    noise[m] = kHoldRounding * (std::abs(along_x) + std::abs(along_y) + std::abs(turning) + std::abs(k.slip_rate));
   }
-  for (int m = 0; m < sticking_count; ++m)
-    for (int n = 0; n < sticking_count; ++n) {
-      const Vec2& a = kinematics[static_cast<std::size_t>(sticking[m])].tangent;
-      const Vec2& b = kinematics[static_cast<std::size_t>(sticking[n])].tangent;
-      matrix[m][n] = a.x * b.x * system.x.inverse_inertia + a.y * b.y * system.y.inverse_inertia +
-                     arm[m] * arm[n] * system.phi.inverse_inertia;
-    }
   Mobility mobility;
-  mobility.set(matrix, sticking_count, typical_mobility(system));
+  mobility.set(mobility_of(system, tangents, sticking_count), sticking_count, typical_mobility(system));
   const Mobility::Vector held = mobility.hold(rhs, noise);
   for (int m = 0; m < sticking_count; ++m) {
     const auto index = static_cast<std::size_t>(sticking[m]);
-    const Vec2& t = kinematics[index].tangent;
+    const Load3& t = tangents[m];
     forces.contact[index].tangential_force = held[m];
     forces.ax += held[m] * t.x * system.x.inverse_inertia;
     forces.ay += held[m] * t.y * system.y.inverse_inertia;
-    forces.alpha += held[m] * arm[m] * system.phi.inverse_inertia;
+    forces.alpha += held[m] * t.phi * system.phi.inverse_inertia;
   }
 }
 

@@ -75,6 +75,17 @@ Mobility::Vector Mobility::spread(const Vector& noise) const {
   return error;
 }
 
+Mobility::Matrix mobility_of(const System& system, const Mobility::Directions& tangents, int count) {
+  Mobility::Matrix matrix{};
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) {
+      const Load3 &a = tangents[i], &b = tangents[j];
+      matrix[i][j] = a.x * b.x * system.x.inverse_inertia + a.y * b.y * system.y.inverse_inertia +
+                     a.phi * b.phi * system.phi.inverse_inertia;
+    }
+  return matrix;
+}
+
 double typical_mobility(const System& system) {
   const double reach = system.half_width + system.base_distance;
   return system.x.inverse_inertia + system.y.inverse_inertia + reach * reach * system.phi.inverse_inertia;

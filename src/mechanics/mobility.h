@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "mechanics/contact.h"
+#include "mechanics/drive.h"
 #include "mechanics/system.h"
 
 namespace vibratory_alignment {
@@ -18,6 +19,7 @@ class Mobility {
  public:
   using Vector = std::array<double, kSiteCount>;
   using Matrix = std::array<Vector, kSiteCount>;
+  using Directions = std::array<Load3, kSiteCount>;  ///< t_i as (t_x, t_y, r x t)
 
   /// The first `count` rows of G. A G that is rounding beside `typical` holds nothing.
   void set(const Matrix& matrix, int count, double typical);
@@ -44,6 +46,12 @@ class Mobility {
   bool regular_ = true, holds_nothing_ = false;
   Decomposition safe_, full_;  ///< without the nearly common motions, and with all that is not rounding
 };
+
+/// G of the directions t_i.
+Mobility::Matrix mobility_of(const System& system, const Mobility::Directions& tangents, int count);
+
+/// Rounding of V' relative to its size: forces of contacts that hold the same motion are not resolved beyond.
+inline constexpr double kHoldRounding = 1e-14;
 
 /// Mobility of a point of the part about as far from its centre as any.
 double typical_mobility(const System& system);

@@ -57,18 +57,18 @@ constexpr double kNoDeformation = 1e-18;
 constexpr double kImplicitShare = 1e-2;
 
 /// Costs in series steps, counted in instructions: one evaluation of the forces in an implicit step with all that goes
-/// with it, and a whole such step.
-constexpr double kEvaluationCost = 0.14, kImplicitCost = 8.0;
+/// with it, also in the tanh layer, and a whole such step.
+constexpr double kEvaluationCost = 0.12, kLayerEvaluationCost = 0.2, kImplicitCost = 4.0;
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
 /// may be saved for later losses: the short steps after a slip event.
 constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
 
 /// Series steps in one contact before an implicit one is tried.
-constexpr int kTrialAfter = 48;
+constexpr int kTrialAfter = 32;
 
-/// Shortest step worth trying, in series steps.
-constexpr double kShortestTrial = 2.0;
+/// Shortest step worth trying, in series steps, and that at the very start, where nothing is known yet.
+constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0;
 
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
@@ -107,6 +107,11 @@ bool rings_base(EventKind kind) {
 
 bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
+}
+
+bool any_in_layer(const ContactStates& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const ContactState& c) { return c.phase == Phase::loaded && c.slip == Slip::regularized; });
 }
 
 Site first_sticking(const ContactStates& contacts) {
@@ -272,11 +277,26 @@ double EventSolver::series_contact_step(const DriveForms& drives) {
   return std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
 }
 
+/// Longest part of a step over which the series of cos phi and sin phi hold. The last terms of a power series show what
+/// is cut off; where phi is the polynomial of an implicit step they are exact, and what is cut off is smaller than they
+/// are by the angle through which the part turns.
+double EventSolver::direction_step(double step, double point_tolerance) {
+  const double turn = implicit_now_ ? std::abs(value_at(segment_.phi, segment_.order, step) - segment_.phi[0]) : 1.0;
+  const double tolerance = turn > point_tolerance ? point_tolerance / turn : 1.0;
+  return pair_step(series_.direction(segment_), segment_.order, tolerance);
+}
+
 /// One step in contact of at most `longest`, by the method that is due. Automatic: implicit steps are tried on credit.
 /// The series earn it as a share of their cost; what an implicit step brings beyond its cost adds to it or takes from
 /// it, and when it is used up the series take over again.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
   double shortest = 0.0;
+  if (method_ == ContactMethod::automatic && counts_.steps == 1) {
+    // a contact at the start does not come out of an impact: its ring may be small enough to be passed over
+    series_step_ = series_contact_step(drives);
+    shortest = kShortestFirst * series_step_;
+    stays_implicit_ = true;
+  }
   if (method_ == ContactMethod::automatic && !stays_implicit_ && series_steps_ >= kTrialAfter &&
       credit_ >= kTrialShare * kTrialAfter) {
     implicit_.suggest(2.0 * kImplicitCost * series_step_);
@@ -288,7 +308,8 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     const double step = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
     if (method_ == ContactMethod::automatic) {
-      const double cost = kEvaluationCost * static_cast<double>(counts_.rhs_evaluations - before);
+      const double cost = (any_in_layer(segment_.contacts) ? kLayerEvaluationCost : kEvaluationCost) *
+                          static_cast<double>(counts_.rhs_evaluations - before);
       // a step cut short at the end says nothing
       if (step < longest) credit_ = std::min(credit_ + step / series_step_ - cost, kMostCredit);
       stays_implicit_ = step > 0.0 && credit_ > 0.0;
@@ -363,7 +384,11 @@ const Segment& EventSolver::advance(double limit) {
     if (!is_finite(segment_)) fail("the motion is no longer finite");
     // the series of the points turn with the part; those of the other edge and the corners follow from these
     segment_.coarse = implicit_now_;
-    step = std::min({step, end, pair_step(series_.direction(segment_), segment_.order, point_tolerance)});
+    step = std::min({step, end, direction_step(step, point_tolerance)});
+    if (implicit_now_ && step < implicit_length_ && implicit_.retake(step, segment_, counts_)) {
+      implicit_length_ = step;
+      series_.adopt(segment_);
+    }
     if (!contact && system_.contacts.edges)
       step = std::min(step, pair_step(series_.point(Site::a1, segment_), segment_.order, point_tolerance));
     if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
@@ -398,6 +423,7 @@ const Segment& EventSolver::advance(double limit) {
     fail("the step has become too short");
 
   const bool whole_step = implicit_now_ && segment_.duration == implicit_length_;
+  if (!whole_step) implicit_.forget();
   if (!leaps)
     segment_.end = whole_step ? implicit_.end()
                    : contact  ? state_at(segment_, segment_.duration)
@@ -436,6 +462,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
 }
 
 void EventSolver::cut(double duration) {
+  implicit_.forget();
   segment_.duration = duration;
   segment_.end = segment_.loaded_count > 0 ? state_at(segment_, duration) : flight_state(duration);
   FoundEvents none;
@@ -460,6 +487,7 @@ void EventSolver::set_anchor_y(double anchor_y) {
 /// A jump of the forces may end sticking, and ends the closed form of a flight.
 void EventSolver::forces_jump() {
   in_flight_ = false;
+  implicit_.forget();
   if (!started_) return;
   const Instant end = segment_.start + segment_.duration;
   decide_friction_anew(system_, segment_, forms_at(next_drives_, end), friction_, next_mode_);

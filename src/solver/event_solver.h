@@ -31,6 +31,7 @@ class EventSolver final : public Solver {
   double tanh_layer_step() const;
   bool must_part() const;
   double series_contact_step(const DriveForms& drives);
+  double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);

