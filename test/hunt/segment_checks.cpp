@@ -28,9 +28,10 @@ double magnitude_at(const Series& series, int order, double t) {
   return value;
 }
 
-/// Lengths that a depth is the difference of.
+/// Lengths that a depth is the difference of; the last digit of a tilt of many turns moves the corners, too.
 double length_of(const System& s, const State& q) {
-  return std::abs(q.x) + std::abs(q.y) + s.half_width + s.base_distance + s.slot_half_width +
+  const double turns = std::abs(q.phi) * (s.half_width + s.base_distance);
+  return std::abs(q.x) + std::abs(q.y) + turns + s.half_width + s.base_distance + s.slot_half_width +
          (s.has_floor ? s.floor_depth : 0.0);
 }
 
