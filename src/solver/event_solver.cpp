@@ -212,10 +212,9 @@ bool EventSolver::must_part() const {
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k) left = left || series_.not_held(k) > 0.0;
   if (!left) return false;
   const SeriesNoise noise = series_noise(system_, segment_, segment_.duration, kPartAllowance);
-  const double most = *std::max_element(noise.slip_rate.begin(), noise.slip_rate.end());
   double power = 1.0;
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= segment_.duration)
-    if (series_.not_held(k) * power > most) return true;
+    if (series_.not_held(k) * power > noise.held_slip_rate) return true;
   return false;
 }
 

@@ -121,9 +121,8 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
     return;
   }
   // can those that stick hold together?
-  double power = 1.0, slip_rate = 0.0;
-  for (int i = 0; i < probe_.loaded_count; ++i)
-    slip_rate = std::max(slip_rate, noise.slip_rate[static_cast<std::size_t>(i)]);
+  double power = 1.0;
+  const double slip_rate = noise.held_slip_rate;
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= h)
     if (series_.not_held(k) * power > slip_rate) judgement.contradict(k, series_.not_held(k) * power / slip_rate);
   const std::array<double, kSiteCount> force_noise = series_.holding_force_noise(noise.slip_rate);

@@ -105,6 +105,8 @@ class MotionSeries {
   void hold_sticking(int k, Segment& segment);
   void set_up_holding();
   void negated_slip_rates(int k, Segment& segment, HoldingForces::Vector& rates);
+  void watch_held(int k, const HoldingForces::Vector& rates, const HoldingForces::Vector& noise,
+                  const HoldingForces::Answer& held);
   void change_motion(int k, const HoldingForces::Answer& change, Segment& segment);
   double slip_rate_size(const Contact& contact, int k, const Segment& segment) const;
   double motion_size(int k, int known, const Segment& segment) const;

@@ -108,22 +108,31 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   if (k == 0) set_up_holding();
   HoldingForces::Vector rates{}, noise{};
   negated_slip_rates(k, segment, rates);
-  const bool regular = holding_.regular();
-  for (int m = 0; m < sticking_count_ && !regular; ++m)
+  for (int m = 0; m < sticking_count_ && !holding_.regular(); ++m)
     noise[m] = kSlipRateRounding * slip_rate_size(contacts_[sticking_[m]], k, segment);
   const HoldingForces::Answer held = holding_.hold(rates, noise);
-  for (int m = 0; m < sticking_count_; ++m) {
-    segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
-    if (k >= kHeldPowers || regular) continue;
-    const double left = std::abs(holding_.left_over(m, rates, held));
-    if (left > noise[m]) not_held_[k] = std::max(not_held_[k], left);
-  }
+  for (int m = 0; m < sticking_count_; ++m) segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
   change_motion(k, held, segment);
-  if (!holding_.delicate()) return;
+  if (!holding_.delicate()) {
+    watch_held(k, rates, noise, held);
+    return;
+  }
   // the rounding of these large forces is no motion
   negated_slip_rates(k, segment, rates);
   noise.fill(kSlipRateRounding * motion_size(k, k + 2, segment));
-  change_motion(k, holding_.hold(rates, noise), segment);
+  const HoldingForces::Answer correction = holding_.hold(rates, noise);
+  watch_held(k, rates, noise, correction);
+  change_motion(k, correction, segment);
+}
+
+/// Keeps what is left of V' of power k.
+void MotionSeries::watch_held(int k, const HoldingForces::Vector& rates, const HoldingForces::Vector& noise,
+                              const HoldingForces::Answer& held) {
+  if (k >= kHeldPowers || holding_.regular()) return;
+  for (int m = 0; m < sticking_count_; ++m) {
+    const double left = std::abs(holding_.left_over(m, rates, held));
+    if (left > noise[m]) not_held_[k] = std::max(not_held_[k], left);
+  }
 }
 
 std::array<double, kSiteCount> MotionSeries::holding_force_noise(

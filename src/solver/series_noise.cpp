@@ -39,15 +39,15 @@ bool sticks(const Segment& segment, int loaded) {
   return segment.contacts[static_cast<std::size_t>(segment.loaded[loaded].site)].slip == Slip::stick;
 }
 
-/// What errors of forces and moment make of V' of contacts that slide while others stick: little, where these hold what
-/// the errors move most. Only where it is little beside what they would make of a free part.
+/// What errors of forces and moment make of V' while some contacts stick: little, where these hold what the errors move
+/// most. Only where it is little beside what they would make of a free part.
 void hold_noise(const System& system, const Segment& segment, const Kinematics& kinematics, const TangentRow& load,
                 double rounding, double curvature, SeriesNoise& noise) {
   HoldingForces::Rows rows;
   int count = 0;
   for (int i = 0; i < segment.loaded_count; ++i)
     if (sticks(segment, i)) rows[count++] = row_of(kinematics[i]);
-  if (count == 0 || count == segment.loaded_count) return;
+  if (count == 0) return;
   HoldingForces holding;
   holding.set(system, rows, count);
   if (!holding.delicate()) return;
@@ -56,14 +56,19 @@ void hold_noise(const System& system, const Segment& segment, const Kinematics& 
   const int order = segment.order;
   const double ax = largest_slope_term(segment.vx, order, noise.h), ay = largest_slope_term(segment.vy, order, noise.h),
                turn = largest_slope_term(segment.omega, order, noise.h);
+  noise.held_slip_rate = 0.0;
   for (int i = 0; i < segment.loaded_count; ++i) {
-    if (sticks(segment, i)) continue;
     const TangentRow row = row_of(kinematics[i]);
+    const double motion =
+        curvature + rounding * (std::abs(row.x) * ax + std::abs(row.y) * ay + std::abs(row.moment) * turn);
+    if (sticks(segment, i)) {
+      noise.held_slip_rate = std::max(noise.held_slip_rate, motion);
+      continue;
+    }
     const auto rate = [&](const HoldingForces::Answer& a) {
       return std::abs(row.x * a.x + row.y * a.y + row.moment * a.phi);
     };
-    const double motion = std::abs(row.x) * ax + std::abs(row.y) * ay + std::abs(row.moment) * turn;
-    noise.slip_rate[i] = std::min(noise.slip_rate[i], rate(x) + rate(y) + rate(phi) + curvature + rounding * motion);
+    noise.slip_rate[i] = std::min(noise.slip_rate[i], rate(x) + rate(y) + rate(phi) + motion);
     noise.mobility[i] = std::min(noise.mobility[i], rate(holding.respond(row)));
   }
 }
@@ -128,6 +133,7 @@ SeriesNoise series_noise(const System& system, const Segment& segment, double h,
     noise.state_slip_rate[i] =
         own * (rate(std::abs(k.normal.x), std::abs(k.normal.y), arm_of(k.lever, k.normal)) + f * noise.mobility[i]);
   }
+  noise.held_slip_rate = *std::max_element(noise.slip_rate.begin(), noise.slip_rate.end());
   hold_noise(system, segment, kinematics, {force_x, force_y, torque}, rounding, curvature, noise);
   return noise;
 }

@@ -201,8 +201,9 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
   return mode;
 }
 
-double excess_friction(const System& system, const Segment& segment, double h) {
+double excess_friction(const System& system, const Segment& segment, double step) {
   double excess = 0.0;
+  const double h = std::min(step, 1.0);  // nothing may move at all
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     if (segment.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::stick) continue;
