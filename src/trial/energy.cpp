@@ -4,6 +4,7 @@
 
 #include "mechanics/contact_frame.h"
 #include "solver/flight.h"
+#include "solver/solver.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -89,6 +90,7 @@ void EnergyAccount::book(const Segment& segment) {
     base_total += at_end[site];
   }
   ledger_.final = mechanical(segment.end) + base_total;
+  if (!std::isfinite(ledger().residual)) throw SolverFailure("the energy is no longer finite");
 }
 
 /// All powers at time t of the segment, times `weight`.
