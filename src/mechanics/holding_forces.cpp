@@ -69,8 +69,8 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   count_ = count;
   regular_ = true;
   delicate_ = holds_nothing_ = false;
-  if (count == 0) return;
   inverse_inertia_ = {system.x.inverse_inertia, system.y.inverse_inertia, system.phi.inverse_inertia};
+  if (count == 0) return;
   reach_ = system.half_width + system.base_distance;
   const double weight[3] = {inverse_inertia_[0], inverse_inertia_[1], reach_ * reach_ * inverse_inertia_[2]};
   const double most = *std::max_element(weight, weight + 3);
