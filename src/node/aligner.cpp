@@ -7,6 +7,7 @@
 
 #include <ros/callback_queue.h>
 
+#include "model/scene_loader.h"
 #include "node/transforms.h"
 
 namespace vibratory_alignment {
