@@ -7,6 +7,7 @@
 
 #include <ros/callback_queue.h>
 
+#include "model/scene_loader.h"
 #include "node/transforms.h"
 
 namespace vibratory_alignment {
@@ -121,7 +122,14 @@ void Aligner::publish_due_samples() {
 
 void Aligner::publish_next() {
   Sample sample;
-  if (trial_.next(sample)) publish(sample);
+  try {
+    if (trial_.next(sample)) publish(sample);
+  } catch (const SceneError& error) {
+    // settings changed before the start may leave the scene without one
+    ROS_ERROR("The trial cannot start with these settings: %s", error.what());
+    activity_ = Activity::paused;
+    return;
+  }
   if (trial_.ended()) finish();
 }
 

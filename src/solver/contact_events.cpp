@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
+#include "solver/contact_point.h"
 #include "solver/polynomial_roots.h"
 #include "solver/series_noise.h"
 
@@ -21,6 +22,10 @@ constexpr double kLengthRounding = 3e-16;
 
 /// One this large is not, nor is a sliding acceleration relative to that of the part.
 constexpr double kSurelySliding = 1e-8;
+
+/// Largest correction of the time of an event, as a share of it, and how often it is corrected.
+constexpr double kMostCorrection = 1e-3;
+constexpr int kCorrections = 3;
 
 /// Factor on rounding below which V is taken as zero throughout.
 constexpr double kRestAllowance = 10.0;
@@ -222,6 +227,19 @@ class Search {
     }
   }
 
+  /// k(n) and h(n) that turn with the part fall off more slowly in the series than the motion by which the step is
+  /// chosen: the time at which they load again is corrected by the state there. `g`: -(k d + h d').
+  double reload_time(double found, Site site, Face face, const Series& g) const {
+    double slope = 0.0, time = found;
+    for (int k = order_ - 1; k >= 1; --k) slope = slope * found + k * g[k];
+    for (int i = 0; i < kCorrections; ++i) {
+      const PlacedState placed(state_at(segment_, time));
+      time += contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() / slope;
+      if (!(std::abs(time - found) <= kMostCorrection * found)) return found;
+    }
+    return std::min(time, duration_);
+  }
+
   void guard_unloaded(Site site) {
     const auto index = static_cast<std::size_t>(site);
     const Face face = segment_.contacts[index].face;
@@ -239,7 +257,9 @@ class Search {
     } else {
       series_.push_series(segment_, face, d, g);
       for (int k = 0; k < order_; ++k) g[k] = -g[k];
-      offer(first_fall(g, order_ - 1, duration_, pins_[index].normal), EventKind::reload, site);
+      const double time = first_fall(g, order_ - 1, duration_, pins_[index].normal);
+      const bool turning = is_part_face(face) && !system_.isotropic;
+      offer(turning && time > 0.0 ? reload_time(time, site, face, g) : time, EventKind::reload, site);
     }
     guard_limits(site, face);
   }

@@ -73,6 +73,9 @@ constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0;
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
 
+/// Friction beyond its limit, relative to it: where it is decided anew, and where that has found no answer.
+constexpr double kExcessFriction = 1e-8, kTooMuchFriction = 1e-3;
+
 /// Factor on rounding beyond which sticking contacts have to move apart.
 constexpr double kPartAllowance = 10.0;
 
@@ -215,10 +218,9 @@ bool EventSolver::must_part() const {
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k) left = left || series_.not_held(k) > 0.0;
   if (!left) return false;
   const SeriesNoise noise = series_noise(system_, segment_, segment_.duration, kPartAllowance);
-  const double most = *std::max_element(noise.slip_rate.begin(), noise.slip_rate.end());
   double power = 1.0;
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= segment_.duration)
-    if (series_.not_held(k) * power > most) return true;
+    if (series_.not_held(k) * power > noise.held_slip_rate) return true;
   return false;
 }
 
@@ -270,11 +272,27 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
 }
 
 /// Expands the motion in contact; the length that its truncation error allows.
-double EventSolver::series_contact_step(const DriveForms& drives) {
+double EventSolver::expand_contact(const DriveForms& drives) {
   series_.expand_contact(state_, drives, contact_order_, segment_);
   // rates so high that their powers overflow
   if (!(last_terms(segment_) < kNearOverflow)) series_.expand_contact(state_, drives, kLowOrder, segment_);
   return std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
+}
+
+/// The same, once friction holds what is said to stick.
+double EventSolver::series_contact_step(const DriveForms& drives) {
+  const double step = expand_contact(drives);
+  if (excess_friction(system_, segment_, step) <= kExcessFriction) return step;
+  segment_.duration = 0.0;
+  segment_.end = state_;
+  for (std::size_t i = 0; i < kSiteCount; ++i)
+    if (mode_.contacts[i].slip == Slip::stick) mode_.pins[i].hold_plus = mode_.pins[i].hold_minus = 0;
+  decide_friction_anew(system_, segment_, drives, friction_, mode_);
+  for (std::size_t i = 0; i < kSiteCount; ++i) segment_.contacts[i].slip = mode_.contacts[i].slip;
+  segment_.begin = state_ = hold_sticking(system_, state_, mode_.contacts);
+  const double new_step = expand_contact(drives);
+  if (excess_friction(system_, segment_, new_step) > kTooMuchFriction) fail("no contact state is consistent");
+  return new_step;
 }
 
 /// Longest part of a step over which the series of cos phi and sin phi hold. The last terms of a power series show what

@@ -30,6 +30,7 @@ class EventSolver final : public Solver {
   double crossing_time(double found, const Event& event) const;
   double tanh_layer_step() const;
   bool must_part() const;
+  double expand_contact(const DriveForms& drives);
   double series_contact_step(const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);

@@ -16,11 +16,16 @@ constexpr int kOrder = MotionSeries::kHeldPowers;
 /// The time over which coefficients are compared: the last terms of the series are this small.
 constexpr double kProbeTolerance = 1e-3;
 
-/// If rounding is larger than it was thought to be, no choice is consistent: then it is asked again with these factors.
-constexpr double kAllowances[] = {1.0, 1e2, 1e4};
+/// Factors on rounding. Of several choices that rounding allows, the one that needs the least of it is taken: what is
+/// nearly the same now may grow apart. If it is larger than it was thought to be, no choice is consistent, and it is
+/// asked again.
+constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4};
 
 /// Error of a friction force at an event, relative to the truncation error of a step, and its bounds.
 constexpr double kLimitErrors = 1e4, kSmallestLimitError = 1e-9, kLargestLimitError = 1e-3;
+
+/// Error of a T that holds a contact, beside that of its limit, up to which it may exceed the limit.
+constexpr double kMostForceNoise = 1e5;
 
 /// V' smaller than this beside the accelerations that it is made of is looked at more closely.
 constexpr double kDoubt = 1e-6;
@@ -84,7 +89,9 @@ void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double
   const ContactSeries& contact = probe_.loaded[loaded];
   const auto site = static_cast<std::size_t>(contact.site);
   SitePins& pins = judgement.mode.pins[site];
-  const double limit = system_.friction * noise.normal_force[loaded] + force_noise;
+  // where T is not known, one that friction cannot give is none: what slides instead has a V that is rounding
+  const double limit_noise = system_.friction * noise.normal_force[loaded];
+  const double limit = limit_noise + std::min(force_noise, kMostForceNoise * limit_noise);
   const double nearly =
       system_.friction * (noise.state_normal_force[loaded] + limit_tolerance_ * std::abs(contact.normal_force[0]));
   for (const double sign : {1.0, -1.0}) {
@@ -114,9 +121,8 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
     return;
   }
   // can those that stick hold together?
-  double power = 1.0, slip_rate = 0.0;
-  for (int i = 0; i < probe_.loaded_count; ++i)
-    slip_rate = std::max(slip_rate, noise.slip_rate[static_cast<std::size_t>(i)]);
+  double power = 1.0;
+  const double slip_rate = noise.held_slip_rate;
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= h)
     if (series_.not_held(k) * power > slip_rate) judgement.contradict(k, series_.not_held(k) * power / slip_rate);
   const std::array<double, kSiteCount> force_noise = series_.holding_force_noise(noise.slip_rate);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
-#include "mechanics/mobility.h"
+#include "mechanics/holding_forces.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -26,27 +26,21 @@ State hold_sticking(const System& system, const State& state, const ContactState
   for (std::size_t i = 0; i < kSiteCount; ++i)
     if (sticks(contacts[i]))
       held[count++] = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
-  Mobility::Matrix matrix{};
-  Mobility::Vector rhs{}, noise{};
+  HoldingForces::Rows rows;
+  HoldingForces::Vector rhs{}, noise{};
   for (int i = 0; i < count; ++i) {
+    rows[i] = {held[i].tangent.x, held[i].tangent.y, moment_of(held[i].lever, held[i].tangent)};
     rhs[i] = -held[i].slip_velocity;
     const double speed = std::abs(state.vx) + std::abs(state.vy) + std::abs(state.omega) * reach_of(held[i].lever);
     noise[i] = kSpeedRounding * speed;
-    for (int j = 0; j < count; ++j)
-      matrix[i][j] = held[i].tangent.x * held[j].tangent.x * system.x.inverse_inertia +
-                     held[i].tangent.y * held[j].tangent.y * system.y.inverse_inertia +
-                     moment_of(held[i].lever, held[i].tangent) * moment_of(held[j].lever, held[j].tangent) *
-                         system.phi.inverse_inertia;
   }
-  Mobility mobility;
-  mobility.set(matrix, count, typical_mobility(system));
-  const Mobility::Vector impulse = mobility.hold(rhs, noise);
+  HoldingForces impulse;
+  impulse.set(system, rows, count);
+  const HoldingForces::Answer change = impulse.hold(rhs, noise);
   State result = state;
-  for (int i = 0; i < count; ++i) {
-    result.vx += impulse[i] * held[i].tangent.x * system.x.inverse_inertia;
-    result.vy += impulse[i] * held[i].tangent.y * system.y.inverse_inertia;
-    result.omega += impulse[i] * moment_of(held[i].lever, held[i].tangent) * system.phi.inverse_inertia;
-  }
+  result.vx += change.x;
+  result.vy += change.y;
+  result.omega += change.phi;
   return result;
 }
 

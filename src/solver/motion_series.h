@@ -5,7 +5,7 @@
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/drive.h"
-#include "mechanics/mobility.h"
+#include "mechanics/holding_forces.h"
 #include "solver/segment.h"
 
 namespace vibratory_alignment {
@@ -103,8 +103,13 @@ class MotionSeries {
   void force_term(Contact& contact, int k, ContactSeries& series, const Segment& segment);
   void tanh_term(Contact& contact, int k, ContactSeries& series) const;
   void hold_sticking(int k, Segment& segment);
-  void set_up_mobility();
+  void set_up_holding();
+  void negated_slip_rates(int k, Segment& segment, HoldingForces::Vector& rates);
+  void watch_held(int k, const HoldingForces::Vector& rates, const HoldingForces::Vector& noise,
+                  const HoldingForces::Answer& held);
+  void change_motion(int k, const HoldingForces::Answer& change, Segment& segment);
   double slip_rate_size(const Contact& contact, int k, const Segment& segment) const;
+  double motion_size(int k, int known, const Segment& segment) const;
   void direction_terms(Contact& contact, int k) const;
   Load contact_load(int k, const Segment& segment) const;
   void accelerate(int k, const Load& load, Segment& segment) const;
@@ -125,7 +130,7 @@ class MotionSeries {
   std::array<int, 4> known_point_{};  ///< highest known power, -1: none
   int sticking_count_ = 0;
   std::array<int, kSiteCount> sticking_{};  ///< indices into segment.loaded
-  Mobility mobility_;                       ///< of the sticking contacts, at the segment's start
+  HoldingForces holding_;                   ///< of the sticking contacts, at the segment's start
   std::array<double, kHeldPowers> not_held_{};
 };
 

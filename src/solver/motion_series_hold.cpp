@@ -12,17 +12,13 @@ constexpr double kSlipRateRounding = 1e-15;
 
 }  // namespace
 
-void MotionSeries::set_up_mobility() {
-  Mobility::Matrix matrix{};
-  for (int m = 0; m < sticking_count_; ++m)
-    for (int n = 0; n < sticking_count_; ++n) {
-      const Contact& a = contacts_[sticking_[m]];
-      const Contact& b = contacts_[sticking_[n]];
-      matrix[m][n] = system_.x.inverse_inertia * a.drag[0][0] * b.drag[0][0] +
-                     system_.y.inverse_inertia * a.drag[0][1] * b.drag[0][1] +
-                     system_.phi.inverse_inertia * a.drag_moment[0] * b.drag_moment[0];
-    }
-  mobility_.set(matrix, sticking_count_, typical_mobility(system_));
+void MotionSeries::set_up_holding() {
+  HoldingForces::Rows rows;
+  for (int m = 0; m < sticking_count_; ++m) {
+    const Contact& contact = contacts_[sticking_[m]];
+    rows[m] = {contact.drag[0][0], contact.drag[0][1], contact.drag_moment[0]};
+  }
+  holding_.set(system_, rows, sticking_count_);
 }
 
 double MotionSeries::slip_rate_size(const Segment& segment) const {
@@ -70,54 +66,80 @@ double MotionSeries::slip_rate_size(const Contact& contact, int k, const Segment
   const double size = std::abs(contact.drag[0][0]) * system_.x.inverse_inertia * x +
                       std::abs(contact.drag[0][1]) * system_.y.inverse_inertia * y +
                       std::abs(contact.drag_moment[0]) * system_.phi.inverse_inertia * moment;
-  double turning = 0.0;
-  for (int j = 0; j <= k + 1; ++j) {
-    const double reach =
-        j == 0 ? system_.half_width + system_.base_distance : std::abs(segment.x[j]) + std::abs(segment.y[j]);
-    turning += reach * direction_[k + 2 - j].abs().sum();
-  }
-  return size + (k + 2) * (k + 1) * turning;
+  return size + motion_size(k, k + 1, segment);
 }
 
-/// Tangential forces of power k that keep V = 0: T = 0 first, then G T = -V' corrects the acceleration.
-void MotionSeries::hold_sticking(int k, Segment& segment) {
-  if (k == 0) set_up_mobility();
-  // V' of power k without the forces sought
+/// Likewise of what V' of power k is made of in the motion, positions up to power `known`.
+double MotionSeries::motion_size(int k, int known, const Segment& segment) const {
+  double sum = 0.0;
+  for (int j = 0; j <= known; ++j) {
+    const double reach =
+        j == 0 ? system_.half_width + system_.base_distance : std::abs(segment.x[j]) + std::abs(segment.y[j]);
+    sum += reach * direction_[k + 2 - j].abs().sum();
+  }
+  return (k + 2) * (k + 1) * sum;
+}
+
+/// V' of power k of the sticking contacts, negated; the motion is known to the forces of this power.
+void MotionSeries::negated_slip_rates(int k, Segment& segment, HoldingForces::Vector& rates) {
   trig_term(k + 2, segment);
-  Mobility::Vector rhs{}, noise{};
   for (int m = 0; m < sticking_count_; ++m) {
     const Contact& contact = contacts_[sticking_[m]];
     point_term(contact.point, k + 2, segment);
     const PairSeries& point = points_[contact.point];
     const ContactFrame& f = contact.frame;
-    rhs[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point[k + 2][0] + f.t2() * point[k + 2][1]);
-    if (!mobility_.regular()) noise[m] = kSlipRateRounding * slip_rate_size(contact, k, segment);
+    rates[m] = f.sign * (k + 2) * (k + 1) * (f.t1() * point[k + 2][0] + f.t2() * point[k + 2][1]);
   }
-  const Mobility::Vector held = mobility_.hold(rhs, noise);
-  for (int m = 0; m < sticking_count_; ++m) {
-    const Contact& contact = contacts_[sticking_[m]];
-    const Pair& d = contact.drag[0];
-    const double force = held[m];
-    segment.loaded[sticking_[m]].tangential_force[k] = force;
-    segment.vx[k + 1] += system_.x.inverse_inertia * d[0] * force / (k + 1);
-    segment.vy[k + 1] += system_.y.inverse_inertia * d[1] * force / (k + 1);
-    segment.omega[k + 1] += system_.phi.inverse_inertia * contact.drag_moment[0] * force / (k + 1);
-    if (k < kHeldPowers && !mobility_.regular()) {
-      const double left = std::abs(mobility_.left_over(m, rhs, held));
-      if (left > noise[m]) not_held_[k] = std::max(not_held_[k], left);
-    }
-  }
+}
+
+/// Adds to the accelerations of power k.
+void MotionSeries::change_motion(int k, const HoldingForces::Answer& change, Segment& segment) {
+  segment.vx[k + 1] += change.x / (k + 1);
+  segment.vy[k + 1] += change.y / (k + 1);
+  segment.omega[k + 1] += change.phi / (k + 1);
   segment.x[k + 2] = segment.vx[k + 1] / (k + 2);
   segment.y[k + 2] = segment.vy[k + 1] / (k + 2);
   segment.phi[k + 2] = segment.omega[k + 1] / (k + 2);
-  known_centre_ = std::min(known_centre_, k + 1);  // that of k + 2 was without these forces
+  known_centre_ = std::min(known_centre_, k + 1);  // that of k + 2 was without this change
+}
+
+/// Tangential forces of power k that keep V = 0: T = 0 first, then G T = -V' corrects the acceleration.
+void MotionSeries::hold_sticking(int k, Segment& segment) {
+  if (k == 0) set_up_holding();
+  HoldingForces::Vector rates{}, noise{};
+  negated_slip_rates(k, segment, rates);
+  for (int m = 0; m < sticking_count_ && !holding_.regular(); ++m)
+    noise[m] = kSlipRateRounding * slip_rate_size(contacts_[sticking_[m]], k, segment);
+  const HoldingForces::Answer held = holding_.hold(rates, noise);
+  for (int m = 0; m < sticking_count_; ++m) segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
+  change_motion(k, held, segment);
+  if (!holding_.delicate()) {
+    watch_held(k, rates, noise, held);
+    return;
+  }
+  // the rounding of these large forces is no motion
+  negated_slip_rates(k, segment, rates);
+  noise.fill(kSlipRateRounding * motion_size(k, k + 2, segment));
+  const HoldingForces::Answer correction = holding_.hold(rates, noise);
+  watch_held(k, rates, noise, correction);
+  change_motion(k, correction, segment);
+}
+
+/// Keeps what is left of V' of power k.
+void MotionSeries::watch_held(int k, const HoldingForces::Vector& rates, const HoldingForces::Vector& noise,
+                              const HoldingForces::Answer& held) {
+  if (k >= kHeldPowers || holding_.regular()) return;
+  for (int m = 0; m < sticking_count_; ++m) {
+    const double left = std::abs(holding_.left_over(m, rates, held));
+    if (left > noise[m]) not_held_[k] = std::max(not_held_[k], left);
+  }
 }
 
 std::array<double, kSiteCount> MotionSeries::holding_force_noise(
     const std::array<double, kSiteCount>& slip_rate_noise) const {
-  Mobility::Vector rate{};
+  HoldingForces::Vector rate{};
   for (int m = 0; m < sticking_count_; ++m) rate[m] = slip_rate_noise[sticking_[m]];
-  const Mobility::Vector spread = mobility_.spread(rate);
+  const HoldingForces::Vector spread = holding_.spread(rate);
   std::array<double, kSiteCount> noise{};
   for (int m = 0; m < sticking_count_; ++m) noise[sticking_[m]] = spread[m];
   return noise;

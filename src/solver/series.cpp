@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/polynomial_roots.h"
 
 namespace vibratory_alignment {
+namespace {
+
+/// Terms this large leave no room for what is computed from them.
+constexpr double kNearOverflow = 1e250;
+
+}  // namespace
 
 double integral(const Series& series, int order, double from, double to) {
   double at_from = 0.0, at_to = 0.0;
@@ -25,11 +32,13 @@ double largest_value(const Series& series, int order, double from, double to) {
   for (int i = 0; i < order; ++i)
     for (int k = order - 1; k >= i; --k) about[k] += about[k + 1] * from;
   const double span = to - from;
-  double bound = about[0], power = 1.0;
+  double bound = about[0], size = std::abs(about[0]), power = 1.0;
   for (int k = 1; k <= order; ++k) {
     power *= span;
     bound += std::max(about[k] * power, 0.0);
+    size += std::abs(about[k] * power);
   }
+  if (!(size < kNearOverflow)) return std::numeric_limits<double>::quiet_NaN();
   if (bound <= largest) return largest;
   Series slope{};
   double start = 0.0;

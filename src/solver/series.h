@@ -52,7 +52,7 @@ inline double value_at(const Series& series, int order, double t) {
 /// Integral over [from, to] of the series up to power `order`.
 double integral(const Series& series, int order, double from, double to);
 
-/// Largest value on [from, to] of the series up to power `order`.
+/// Largest value on [from, to] of the series up to power `order`; not a number where its terms are near overflow.
 double largest_value(const Series& series, int order, double from, double to);
 
 }  // namespace vibratory_alignment

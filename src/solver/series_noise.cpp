@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
+#include "mechanics/holding_forces.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -19,6 +20,57 @@ double largest_term(const Series& g, int order, double h) {
   double largest = 0.0, power = 1.0;
   for (int k = 0; k <= order; ++k, power *= h) largest = std::max(largest, std::abs(g[k]) * power);
   return largest;
+}
+
+/// Largest |k g_k| h^(k-1).
+double largest_slope_term(const Series& g, int order, double h) {
+  double largest = 0.0, power = 1.0;
+  for (int k = 1; k <= order; ++k, power *= h) largest = std::max(largest, k * std::abs(g[k]) * power);
+  return largest;
+}
+
+using Kinematics = std::array<ContactKinematics, kSiteCount>;
+
+TangentRow row_of(const ContactKinematics& k) {
+  return {k.tangent.x, k.tangent.y, k.lever.x * k.tangent.y - k.lever.y * k.tangent.x};
+}
+
+bool sticks(const Segment& segment, int loaded) {
+  return segment.contacts[static_cast<std::size_t>(segment.loaded[loaded].site)].slip == Slip::stick;
+}
+
+/// What errors of forces and moment make of V' while some contacts stick: little, where these hold what the errors move
+/// most. Only where it is little beside what they would make of a free part.
+void hold_noise(const System& system, const Segment& segment, const Kinematics& kinematics, const TangentRow& load,
+                double rounding, double curvature, SeriesNoise& noise) {
+  HoldingForces::Rows rows;
+  int count = 0;
+  for (int i = 0; i < segment.loaded_count; ++i)
+    if (sticks(segment, i)) rows[count++] = row_of(kinematics[i]);
+  if (count == 0) return;
+  HoldingForces holding;
+  holding.set(system, rows, count);
+  if (!holding.delicate()) return;
+  const HoldingForces::Answer x = holding.respond({load.x, 0.0, 0.0}), y = holding.respond({0.0, load.y, 0.0}),
+                              phi = holding.respond({0.0, 0.0, load.moment});
+  const int order = segment.order;
+  const double ax = largest_slope_term(segment.vx, order, noise.h), ay = largest_slope_term(segment.vy, order, noise.h),
+               turn = largest_slope_term(segment.omega, order, noise.h);
+  noise.held_slip_rate = 0.0;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const TangentRow row = row_of(kinematics[i]);
+    const double motion =
+        curvature + rounding * (std::abs(row.x) * ax + std::abs(row.y) * ay + std::abs(row.moment) * turn);
+    if (sticks(segment, i)) {
+      noise.held_slip_rate = std::max(noise.held_slip_rate, motion);
+      continue;
+    }
+    const auto rate = [&](const HoldingForces::Answer& a) {
+      return std::abs(row.x * a.x + row.y * a.y + row.moment * a.phi);
+    };
+    noise.slip_rate[i] = std::min(noise.slip_rate[i], rate(x) + rate(y) + rate(phi) + motion);
+    noise.mobility[i] = std::min(noise.mobility[i], rate(holding.respond(row)));
+  }
 }
 
 }  // namespace
@@ -50,7 +102,7 @@ SeriesNoise series_noise(const System& system, const Segment& segment, double h,
   start.x = segment.x[0];
   start.y = segment.y[0];
   start.phi = segment.phi[0];
-  std::array<ContactKinematics, kSiteCount> kinematics;
+  Kinematics kinematics;
   const auto arm_of = [](const Vec2& lever, const Vec2& v) { return std::abs(lever.x * v.y - lever.y * v.x); };
   double force_x = rounding * x, force_y = rounding * y, torque = rounding * moment;
   for (int i = 0; i < segment.loaded_count; ++i) {
@@ -81,6 +133,8 @@ SeriesNoise series_noise(const System& system, const Segment& segment, double h,
     noise.state_slip_rate[i] =
         own * (rate(std::abs(k.normal.x), std::abs(k.normal.y), arm_of(k.lever, k.normal)) + f * noise.mobility[i]);
   }
+  noise.held_slip_rate = *std::max_element(noise.slip_rate.begin(), noise.slip_rate.end());
+  hold_noise(system, segment, kinematics, {force_x, force_y, torque}, rounding, curvature, noise);
   return noise;
 }
 

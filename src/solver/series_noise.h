@@ -13,6 +13,7 @@ struct SeriesNoise {
   std::array<double, kSiteCount> normal_force{};  ///< N, per entry of segment.loaded
   std::array<double, kSiteCount> slip_rate{};     ///< V'
   std::array<double, kSiteCount> mobility{};      ///< V' per unit of T
+  double held_slip_rate = 0.0;                    ///< V' of what sticks, after T has taken out what it can
   /// What the rounding of the state makes of a contact's own N, and of its V' through it.
   std::array<double, kSiteCount> state_normal_force{}, state_slip_rate{};
 

@@ -17,21 +17,31 @@ double speed_scale(const System& system, const State& state) {
          std::abs(state.omega) * (system.half_width + system.base_distance + system.slot_half_width);
 }
 
-/// Likewise over a segment: what comes to rest at its end was moving before.
-double speed_scale(const System& system, const Segment& segment) {
+/// Speed gained at the acceleration of the segment's start.
+double speed_gain(const System& system, const Segment& segment) {
   State gain;
+  if (segment.flight != nullptr) return 0.0;
   gain.vx = segment.duration * segment.vx[1];
   gain.vy = segment.duration * segment.vy[1];
   gain.omega = segment.duration * segment.omega[1];
-  const double change = segment.flight == nullptr ? speed_scale(system, gain) : 0.0;
-  return std::max({speed_scale(system, segment.begin), speed_scale(system, segment.end), change});
+  return speed_scale(system, gain);
+}
+
+/// Likewise over a segment: what comes to rest at its end was moving before.
+double speed_scale(const System& system, const Segment& segment) {
+  return std::max({speed_scale(system, segment.begin), speed_scale(system, segment.end), speed_gain(system, segment)});
 }
 
 /// A friction force this near to its limit, relative to it, is at the limit.
 constexpr double kAtLimit = 1e-2;
 
-/// A time in which nothing moves: what happens within it coincides.
-constexpr double kInstant = 1e-15;
+/// A time in which nothing moves, unless speeds change by more than this part of them: what happens within it coincides.
+constexpr double kInstant = 1e-15, kNoChange = 1e-9;
+
+bool is_instant(const System& system, const Segment& segment) {
+  if (segment.duration > kInstant) return false;
+  return speed_gain(system, segment) <= kNoChange * speed_scale(system, segment.begin);
+}
 
 /// A base force this small, relative to that of its spring, is zero.
 constexpr double kPushRounding = 1e-9;
@@ -68,9 +78,10 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       continue;
     }
     at_rest[i] = !slides[i] && (zero_slip[i] || contact.slip == Slip::stick || std::abs(v) <= kZeroSlip * speed);
-    // what slides in name only is at its limit
-    if (at_rest[i] && !zero_slip[i] && contact.slip == Slip::plus) mode.pins[i].hold_minus = 1;
-    if (at_rest[i] && !zero_slip[i] && contact.slip == Slip::minus) mode.pins[i].hold_plus = 1;
+    // what slides in name only is at its limit; what has just been found to start sliding is not
+    const bool starts = mode.pins[i].slip > 0 && mode.pins[i].slip <= MotionSeries::kHeldPowers;
+    if (at_rest[i] && !zero_slip[i] && !starts && contact.slip == Slip::plus) mode.pins[i].hold_minus = 1;
+    if (at_rest[i] && !zero_slip[i] && !starts && contact.slip == Slip::minus) mode.pins[i].hold_plus = 1;
     if (!at_rest[i] && contact.slip == Slip::none) contact.slip = v > 0.0 ? Slip::plus : Slip::minus;
   }
   friction.decide(state, drives, at_rest, mode);
@@ -107,7 +118,7 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
                          const DriveForms& drives_at_end, FrictionChoice& friction, FoundEvents& events) {
   ContactMode mode = before;
   // what was zero at the start no longer is, unless no time has passed
-  if (segment.duration > kInstant) mode.pins = {};
+  if (!is_instant(system, segment)) mode.pins = {};
   const State& state = segment.end;
   SiteFlags zero_slip{}, slides{};
   for (int i = 0; i < events.count; ++i) {
@@ -188,6 +199,20 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
       event.kind = EventKind::stick;
   }
   return mode;
+}
+
+double excess_friction(const System& system, const Segment& segment, double step) {
+  double excess = 0.0;
+  const double h = std::min(step, 1.0);  // nothing may move at all
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[i];
+    if (segment.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::stick) continue;
+    const Series& n = contact.normal_force;
+    const double beyond = std::abs(contact.tangential_force[0]) - system.friction * std::abs(n[0]);
+    const double size = system.friction * (std::abs(n[0]) + std::abs(n[1]) * h + std::abs(n[2]) * h * h);
+    if (beyond > excess * size) excess = beyond / size;
+  }
+  return excess;
 }
 
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,

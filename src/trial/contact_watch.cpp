@@ -1,8 +1,11 @@
 #include "trial/contact_watch.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "mechanics/contact_frame.h"
+#include "solver/solver.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -36,7 +39,11 @@ void ContactWatch::book_peaks(const Segment& segment) {
       power *= segment.duration;
       bound += std::max(0.0, contact.normal_force[k] * power);
     }
-    if (bound > peak) peak = std::max(peak, largest_value(contact.normal_force, segment.order, 0.0, segment.duration));
+    if (bound <= peak) continue;
+    const double largest = largest_value(contact.normal_force, segment.order, 0.0, segment.duration);
+    if (!std::isfinite(largest))
+      throw SolverFailure(std::string("the force at ") + to_string(spot_of(contact.site)) + " is no longer finite");
+    peak = std::max(peak, largest);
   }
 }
 

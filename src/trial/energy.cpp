@@ -4,6 +4,7 @@
 
 #include "mechanics/contact_frame.h"
 #include "solver/flight.h"
+#include "solver/solver.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -89,6 +90,9 @@ void EnergyAccount::book(const Segment& segment) {
     base_total += at_end[site];
   }
   ledger_.final = mechanical(segment.end) + base_total;
+  const double sum = ledger_.final + ledger_.excitation_work + ledger_.gripper_loss + ledger_.base_loss +
+                     ledger_.friction_loss + ledger_.release_loss + ledger_.turning;
+  if (!std::isfinite(sum)) throw SolverFailure("the energy is no longer finite");
 }
 
 /// All powers at time t of the segment, times `weight`.

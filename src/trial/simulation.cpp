@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <ctime>
+#include <exception>
+#include <sstream>
+#include <string>
 
 #include "mechanics/statics.h"
 #include "mechanics/system.h"
@@ -38,16 +41,12 @@ class Simulation::Impl {
 
   bool advance() {
     if (ended_) return false;
-    try {
+    guarded([&] {
       if (has_segment_) book();
-      if (ended_) return false;
+      if (ended_) return;
       solver_->advance(limit_);
       has_segment_ = true;
-    } catch (const SolverFailure& failure) {
-      failure_ = failure.what();
-      outcome_ = Outcome::failed;
-      end();
-    }
+    });
     return !ended_;
   }
 
@@ -58,13 +57,13 @@ class Simulation::Impl {
     // an instant has more digits than t: where t is the start but for these, nothing has passed yet
     double duration = t - segment().start;
     if (std::abs(duration) <= 2.3e-16 * std::abs(t)) duration = 0.0;
-    if (duration >= 0.0 && duration < segment().duration) solver_->cut(duration);
+    if (duration >= 0.0 && duration < segment().duration) guarded([&] { solver_->cut(duration); });
   }
 
   void set_excitations(const std::vector<Excitation>& excitations) {
     const double now = has_segment_ ? segment().end_time() : 0.0;
     excitations_ = excitations;
-    solver_->set_excitations(excitations);
+    guarded([&] { solver_->set_excitations(excitations); });
     contacts_.set_period(slowest_period(excitations));
     settling_.restart(excitations, now);
   }
@@ -73,7 +72,7 @@ class Simulation::Impl {
     const std::optional<double> touch = touch_height(system_, system_.start.x, system_.start.phi);
     if (!touch) throw std::invalid_argument("this scene has no touching height, so no pressing force can be set");
     system_.y.anchor = *touch - pressing_force;
-    solver_->set_anchor_y(system_.y.anchor);
+    guarded([&] { solver_->set_anchor_y(system_.y.anchor); });
     if (options_.energy && has_segment_)
       pending_anchor_ = system_.y.anchor;
     else
@@ -165,6 +164,28 @@ class Simulation::Impl {
     if (aligned_time_ && reached_end_) outcome_ = Outcome::inserted;
     if (outcome_ == Outcome::running && settling_.settled())
       outcome_ = aligned_time_ ? Outcome::jammed : Outcome::stalled;
+  }
+
+  /// Does a part of the trial. Whatever it throws ends the trial as failed: nothing gets past the outcome.
+  template <class Part>
+  void guarded(const Part& part) {
+    try {
+      part();
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+
+  /// The solver says when and where it gave up; what was found in passing has happened in the segment just passed.
+  void fail(const std::string& reason) {
+    std::ostringstream text;
+    text << reason;
+    if (reason.find(" at time ") == std::string::npos)
+      text << " at time " << time_ << " (dimensionless), x = " << state_.x << ", y = " << state_.y
+           << ", phi = " << state_.phi;
+    failure_ = text.str();
+    outcome_ = Outcome::failed;
+    end();
   }
 
   void end() {

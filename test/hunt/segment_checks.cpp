@@ -15,6 +15,7 @@ using test::touch_point;
 using test::TouchPoint;
 
 constexpr double kDigits = 1e-13;
+constexpr double kTimeDigits = 4e-16;
 constexpr double kSlipErrors = 1e3;        ///< V also holds what T was wrong by in the segments before
 constexpr double kForceDigits = 1e-15;     ///< forces that are in balance
 constexpr double kFastestRecovery = 1e12;  ///< a base that recovers at this rate is taken to do so at once
@@ -28,9 +29,10 @@ double magnitude_at(const Series& series, int order, double t) {
   return value;
 }
 
-/// Lengths that a depth is the difference of.
+/// Lengths that a depth is the difference of; the last digit of a tilt of many turns moves the corners, too.
 double length_of(const System& s, const State& q) {
-  return std::abs(q.x) + std::abs(q.y) + s.half_width + s.base_distance + s.slot_half_width +
+  const double turns = std::abs(q.phi) * (s.half_width + s.base_distance);
+  return std::abs(q.x) + std::abs(q.y) + turns + s.half_width + s.base_distance + s.slot_half_width +
          (s.has_floor ? s.floor_depth : 0.0);
 }
 
@@ -70,6 +72,13 @@ class SegmentCheck {
     return {invariant, text.str()};
   }
 
+  /// A depth is known to the digits of its lengths, and to how far the last digit of the time moves the part.
+  double depth_noise() const {
+    const double time = segment_.start.value() + t_;
+    return (kDigits + kCut * tolerance_) * length_of(system_, state_) +
+           kTimeDigits * time * speed_of(system_, segment_, state_);
+  }
+
   std::optional<Fault> loaded(const ContactSeries& contact) const {
     const int order = segment_.order;
     const ContactState& site = segment_.contacts[static_cast<std::size_t>(contact.site)];
@@ -77,11 +86,10 @@ class SegmentCheck {
     const double n = value_at(contact.normal_force, order, t_), t = value_at(contact.tangential_force, order, t_);
     if (!std::isfinite(n) || !std::isfinite(t)) return fault(Invariant::finite, "contact force", n + t);
 
-    const double length = length_of(system_, state_), speed = speed_of(system_, segment_, state_),
-                 digits = kDigits + kCut * tolerance_;
+    const double speed = speed_of(system_, segment_, state_), digits = kDigits + kCut * tolerance_;
     const double n_terms = magnitude_at(contact.normal_force, order, t_);
     const double n_noise =
-        p.stiffness * digits * length + p.damping * digits * speed + (kDigits + tolerance_) * n_terms;
+        p.stiffness * depth_noise() + p.damping * digits * speed + (kDigits + tolerance_) * n_terms;
     if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
     if (std::abs(n - p.normal_force) > 10.0 * n_noise)
       return fault(Invariant::base_pushes, "N - (k d + h d')", n - p.normal_force);
@@ -134,7 +142,7 @@ class SegmentCheck {
     const double surface = contact.base_deformation * std::exp(-contact.recovery_rate * t_);  // of a base that recovers
     const double depth = depth_inside(site) - surface;
     const double at_once = system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0;
-    if (depth > (kDigits + kCut * tolerance_) * length_of(system_, state_) + at_once)
+    if (depth > depth_noise() + at_once)
       return fault(Invariant::no_passing, "depth of a point that is outside", depth);
     return {};
   }

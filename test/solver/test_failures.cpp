@@ -12,6 +12,7 @@
 
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "trial/sampler.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -46,13 +47,25 @@ TEST(Failures, an_ended_trial_stays_ended) {
   EXPECT_EQ(simulation.result().outcome, Outcome::failed);
 }
 
-/// Runs a scene with numbers that no loader would pass in a process of its own, which an alarm ends if it hangs.
+bool is_finite(const Sample& sample) {
+  double sum = 0.0;
+  for (const ContactSample& contact : sample.contacts) sum += contact.peak_normal_force + contact.normal_force;
+  return std::isfinite(sum) && is_finite(sample.state);
+}
+
+/// Runs a scene, also sampled, with numbers that no loader would pass in a process of its own, which an alarm ends if it hangs.
 /// Exit status: 0 an outcome in finite numbers, 1 failed with a reason, else a fault.
 int in_own_process(Scene scene) {
   alarm(10);
   scene.solver.step_limit = 20000;
   const TrialResult result = run(scene);
-  if (result.outcome == Outcome::failed) return result.failure.empty() ? 2 : 1;
+  Simulation simulation(scene);
+  Sampler sampler(simulation, 0.01 * scene.trial.time_limit, true);
+  Sample sample;
+  while (sampler.next(sample))
+    if (!is_finite(sample)) return 5;
+  if (simulation.result().outcome != result.outcome) return 6;
+  if (result.outcome == Outcome::failed) return result.failure.find(" at time ") == std::string::npos ? 2 : 1;
   if (result.outcome == Outcome::running) return 3;
   return is_finite(result.final_state) ? 0 : 4;
 }

@@ -141,5 +141,16 @@ TEST(LargestValue, out_of_a_level_start) {
   EXPECT_NEAR(largest_value(g, 4, 0.0, 0.5), 0.0, 1e-15);
 }
 
+// A force whose terms cannot be added has no peak; that ends a trial elsewhere, not where it is looked at.
+TEST(LargestValue, of_terms_near_overflow_is_not_a_number) {
+  Series g{};
+  g[0] = 1.0;
+  g[1] = 1e300;
+  g[2] = -1e300;
+  EXPECT_TRUE(std::isnan(largest_value(g, 2, 0.0, 1e10)));
+  EXPECT_TRUE(std::isnan(largest_value(g, 2, 1e10, 1e11)));
+  EXPECT_NEAR(largest_value(g, 2, 0.0, 1e-300), 2.0, 1e-15);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

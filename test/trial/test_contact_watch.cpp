@@ -10,6 +10,8 @@
 #include "../support/random_scenes.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "solver/solver.h"
+#include "trial/contact_watch.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -83,6 +85,26 @@ TEST(PeakForce, is_that_of_dense_samples) {
       EXPECT_GE(result.peak_force[i], largest[i] * (1.0 - 1e-12)) << "seed " << seed;
       EXPECT_LE(result.peak_force[i], largest[i] * (1.0 + 1e-3) + 1e-12) << "seed " << seed;
     }
+  }
+}
+
+// Terms that overflow make no peak: the trial must end with the place of it, not go on with the peak before.
+TEST(PeakForce, that_overflows_is_a_failure_with_its_place) {
+  const System system = make_system(scene_of(test::ball));
+  Segment segment;
+  segment.order = 2;
+  segment.duration = 1e10;
+  segment.loaded_count = 1;
+  segment.loaded[0].site = Site::a1;
+  segment.loaded[0].normal_force[1] = 1e300;
+  segment.loaded[0].normal_force[2] = -1e300;
+  segment.contacts[0] = {Phase::loaded, Face::bottom, Slip::none};
+  ContactWatch watch(system, 1.0);
+  try {
+    watch.book(segment);
+    ADD_FAILURE() << "no failure";
+  } catch (const SolverFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find(to_string(Spot::a1)), std::string::npos) << failure.what();
   }
 }
 

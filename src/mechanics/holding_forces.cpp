@@ -1,0 +1,166 @@
+#include "mechanics/holding_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "mechanics/mobility.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Rows of J that differ by less than this count as the same.
+constexpr double kSame = 4e-8;
+
+/// Rows that differ by less than this amplify rounding too much to be told apart where it is not needed.
+constexpr double kNearlySame = 1e-4;
+
+/// A mobility that is rounding beside that of the part.
+constexpr double kNoMobility = 2e-15;
+
+/// Ratio of the axes' mobilities from which on the last digits of a force show in the motion.
+constexpr double kUnequal = 1e6;
+
+/// Products with the inverse until rhs is met to rounding.
+constexpr int kPasses = 2;
+
+}  // namespace
+
+/// Two steps, for the rank is one of J, the size that of J M^-1/2: J = Q V with orthonormal columns of Q,
+/// (Q V M^-1/2)^+ = (V M^-1/2)^+ Q^T.
+HoldingForces::Factor HoldingForces::factorize(double singular) const {
+  using Plane = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kSiteCount, 3>;
+  using Tall = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
+  using Orthonormal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSiteCount, 3>;
+  // the most mobile axis first: as a row of (V M^-1/2)^T it must not cost the digits of the others
+  int axes[3] = {0, 1, 2};
+  std::sort(axes, axes + 3, [&](int a, int b) { return scale_[a] > scale_[b]; });
+  Plane plane = Plane::Zero(count_, 3);
+  for (int i = 0; i < count_; ++i) {
+    const double row[3] = {rows_[i].x, rows_[i].y, rows_[i].moment / reach_};
+    for (int a = 0; a < 3; ++a)
+      if (scale_[axes[a]] > 0.0) plane(i, a) = row[axes[a]];
+  }
+  Eigen::ColPivHouseholderQR<Plane> qr;
+  qr.setThreshold(singular);
+  qr.compute(plane);
+  Factor factor;
+  factor.rank = static_cast<int>(qr.rank());
+  factor.inverse = Inverse::Zero(3, count_);
+  if (factor.rank == 0) return factor;
+  Tall tall = Tall::Zero(3, factor.rank);
+  for (int c = 0; c < 3; ++c) {
+    const int a = qr.colsPermutation().indices()[c];
+    for (int i = 0; i < factor.rank && i <= c; ++i) tall(a, i) = qr.matrixQR()(i, c) * scale_[axes[a]];
+  }
+  Orthonormal q = Orthonormal::Identity(count_, factor.rank);
+  q.applyOnTheLeft(qr.householderQ());
+  Eigen::CompleteOrthogonalDecomposition<Tall> decomposition;
+  decomposition.setThreshold(0.0);
+  decomposition.compute(tall);
+  const Inverse inverse = decomposition.pseudoInverse().transpose() * q.transpose();
+  for (int a = 0; a < 3; ++a) factor.inverse.row(axes[a]) = inverse.row(a);
+  return factor;
+}
+
+void HoldingForces::set(const System& system, const Rows& rows, int count) {
+  rows_ = rows;
+  count_ = count;
+  regular_ = true;
+  delicate_ = holds_nothing_ = false;
+  inverse_inertia_ = {system.x.inverse_inertia, system.y.inverse_inertia, system.phi.inverse_inertia};
+  if (count == 0) return;
+  reach_ = system.half_width + system.base_distance;
+  const double weight[3] = {inverse_inertia_[0], inverse_inertia_[1], reach_ * reach_ * inverse_inertia_[2]};
+  const double most = *std::max_element(weight, weight + 3);
+  double least = most, largest = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    scale_[a] = std::sqrt(weight[a]);
+    if (weight[a] > 0.0) least = std::min(least, weight[a]);
+  }
+  for (int i = 0; i < count; ++i) largest = std::max(largest, mobility(i));
+  holds_nothing_ = largest <= kNoMobility * typical_mobility(system);
+  delicate_ = most > kUnequal * least;
+  regular_ = !holds_nothing_;
+  if (count == 1 || holds_nothing_) return;
+  safe_ = factorize(kNearlySame);
+  full_ = factorize(kSame);
+  regular_ = safe_.rank == count;
+  delicate_ = delicate_ || !regular_;
+}
+
+/// G_ii.
+double HoldingForces::mobility(int i) const {
+  const TangentRow& row = rows_[i];
+  return inverse_inertia_[0] * row.x * row.x + inverse_inertia_[1] * row.y * row.y +
+         inverse_inertia_[2] * row.moment * row.moment;
+}
+
+/// Where rows are nearly the same the inverse is large, and its product with rhs inexact: what is left over is taken out
+/// once more.
+HoldingForces::Answer HoldingForces::hold_with(const Factor& factor, const Vector& rhs) const {
+  Answer answer;
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Vector left{};
+    for (int i = 0; i < count_; ++i) left[i] = left_over(i, rhs, answer);
+    for (int i = 0; i < count_; ++i) motion -= factor.inverse.col(i) * left[i];
+    answer.x = scale_[0] * motion[0];
+    answer.y = scale_[1] * motion[1];
+    answer.phi = scale_[2] / reach_ * motion[2];
+  }
+  for (int i = 0; i < count_; ++i) answer.force[i] = factor.inverse.col(i).dot(motion);
+  return answer;
+}
+
+HoldingForces::Answer HoldingForces::hold(const Vector& rhs, const Vector& noise) const {
+  if (count_ == 0 || holds_nothing_) return {};
+  if (count_ == 1) {
+    Answer answer;
+    const double force = answer.force[0] = rhs[0] / mobility(0);
+    answer.x = inverse_inertia_[0] * rows_[0].x * force;
+    answer.y = inverse_inertia_[1] * rows_[0].y * force;
+    answer.phi = inverse_inertia_[2] * rows_[0].moment * force;
+    return answer;
+  }
+  const Answer answer = hold_with(safe_, rhs);
+  if (safe_.rank == full_.rank) return answer;
+  bool exact = true;
+  for (int i = 0; i < count_; ++i) exact = exact && std::abs(left_over(i, rhs, answer)) <= noise[i];
+  return exact ? answer : hold_with(full_, rhs);
+}
+
+HoldingForces::Answer HoldingForces::respond(const TangentRow& load) const {
+  Answer motion;
+  motion.x = inverse_inertia_[0] * load.x;
+  motion.y = inverse_inertia_[1] * load.y;
+  motion.phi = inverse_inertia_[2] * load.moment;
+  Vector rates{}, any{};
+  for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, motion);
+  any.fill(INFINITY);
+  const Answer change = hold(rates, any);
+  motion.x += change.x;
+  motion.y += change.y;
+  motion.phi += change.phi;
+  return motion;
+}
+
+double HoldingForces::left_over(int row, const Vector& rhs, const Answer& answer) const {
+  return rows_[row].x * answer.x + rows_[row].y * answer.y + rows_[row].moment * answer.phi - rhs[row];
+}
+
+HoldingForces::Vector HoldingForces::spread(const Vector& noise) const {
+  Vector error{};
+  if (count_ == 0 || holds_nothing_) return error;
+  if (count_ == 1) {
+    error[0] = noise[0] / mobility(0);
+    return error;
+  }
+  for (int i = 0; i < count_; ++i)
+    for (int j = 0; j < count_; ++j)
+      error[i] += std::abs(safe_.inverse.col(i).dot(safe_.inverse.col(j))) * noise[j];
+  return error;
+}
+
+}  // namespace vibratory_alignment

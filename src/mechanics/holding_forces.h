@@ -1,0 +1,77 @@
+// The tangential forces that hold sticking contacts, and what they change of the motion (docs/hybrid_step.md "Stick").
+//
+// With J the rows (t_x, t_y, r x t) of the contacts, G = J M^-1 J^T is never formed: it would square the ratio between
+// the mobilities of the axes, and what little one of them adds to the other would be lost in its last digits. The factor
+// J M^-1/2 keeps it. Whether contacts hold the same motion is asked of J alone, with levers measured by the size of the
+// part, so that it does not depend on the inertia.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "mechanics/contact.h"
+#include "mechanics/system.h"
+
+namespace vibratory_alignment {
+
+/// Row of J: t and its lever about the mass centre.
+struct TangentRow {
+  double x = 0.0, y = 0.0, moment = 0.0;
+};
+
+class HoldingForces {
+ public:
+  using Vector = std::array<double, kSiteCount>;
+  using Rows = std::array<TangentRow, kSiteCount>;
+
+  /// T of every contact, and how they change the rates of the axes: M^-1 J^T T, to the last digit of the motion even
+  /// where the last digit of T moves it by more.
+  struct Answer {
+    Vector force{};
+    double x = 0.0, y = 0.0, phi = 0.0;
+  };
+
+  /// The first `count` rows. What is rounding beside the mobility of the part holds nothing.
+  void set(const System& system, const Rows& rows, int count);
+
+  /// True when every rhs has exactly one T.
+  bool regular() const { return regular_; }
+
+  /// True when rounding of the forces moves the part by more than rounding of the motion: V' is then to be read off
+  /// the corrected motion and taken out once more.
+  bool delicate() const { return delicate_; }
+
+  /// The smallest T with |G T - rhs| <= noise; if none is as exact, the smallest of those that come nearest.
+  Answer hold(const Vector& rhs, const Vector& noise) const;
+
+  /// How a load on the part (force, moment) changes the rates of the axes while the contacts hold; no force told.
+  Answer respond(const TangentRow& load) const;
+
+  /// G T - rhs of one row.
+  double left_over(int row, const Vector& rhs, const Answer& answer) const;
+
+  /// Errors of T that errors `noise` of the right-hand side cause, at most, nearly common motions left out.
+  Vector spread(const Vector& noise) const;
+
+ private:
+  struct Factor {
+    int rank = 0;
+    /// (J M^-1/2)^+ in the axes x, y, phi times the reach.
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kSiteCount> inverse;
+  };
+  using Inverse = decltype(Factor::inverse);
+  Factor factorize(double singular) const;
+  Answer hold_with(const Factor& factor, const Vector& rhs) const;
+  double mobility(int i) const;
+
+  int count_ = 0;
+  bool regular_ = true, delicate_ = false, holds_nothing_ = false;
+  std::array<double, 3> inverse_inertia_{};
+  double reach_ = 1.0;             ///< what levers are measured by
+  std::array<double, 3> scale_{};  ///< M^-1/2 of x, y and phi times the reach
+  Rows rows_{};
+  Factor safe_, full_;  ///< without the nearly common motions, and with all that is not rounding
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,353 @@
+// Scenes in which one contact, or one axis, is far easier to move than another, found at random: there rounding of what
+// moves easily is larger than what decides about the rest. The laws of contact hold at both ends of every segment, and
+// left and right are alike.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../support/mirror.h"
+#include "../support/runs.h"
+#include "../support/scenes.h"
+#include "mechanics/contact_frame.h"
+
+namespace vibratory_alignment {
+namespace {
+
+struct Case {
+  std::string name, text;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {"level_corners_pressed_hard", R"(
+part: {half_width: 0.1, base_distance: 0.2, inertia: 0.0003}
+slot: {clearance: 0.004}
+gripper: {stiffness: {x: 2}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 2e+01}
+base: {stiffness: {x: 1, y: 3e+06}, damping: {x: 0, y: 9e+03}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.23, y: 0.2, phi: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 1, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"reversal_within_an_instant", R"(
+part: {half_width: 1.4, base_distance: 2, inertia: 1e-05}
+slot: {clearance: 2e-08}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 7e+11, y: 7e+11}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [edges, corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, y: 1, phi: 1.4, vx: 8, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"corners_sharing_for_long", R"(
+part: {half_width: 0.0003, base_distance: 2e+01, inertia: 2e-08}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 9}
+base: {stiffness: {x: 6e+04, y: 6e+04}, damping: {x: 0, y: 1e+01}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 0.2}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, phi: 0.1, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.8, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"corners_far_below_the_centre", R"(
+part: {half_width: 1, base_distance: 7e+03, inertia: 7e-05}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 2e+09}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, y: 1, phi: 0.08, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 4e-13, step_limit: 1000}
+)"},
+      {"edge_and_corner_of_one_lever", R"(
+part: {half_width: 0.7746949918684889, base_distance: 0.22072147874001335, inertia: 0.32771491721763474}
+slot: {clearance: 0.007322686662406191}
+gripper: {stiffness: {x: 0, phi: 1902.58099625398}, damping: {x: 0, y: 0, phi: 0.13360282193561235}, anchor: {x: 0, phi: 0}, pressing_force: 0.04212959477468883}
+base: {stiffness: {x: 260229196.73285586, y: 260229196.73285586}, damping: {x: 30593.036799034773, y: 30593.036799034773}, recovery: false}
+contacts: [edges, corners]
+friction: {coefficient: 1}
+weight: 98.54999992694727
+excitation:
+  - {amplitude: 0.1, frequency: 0.018395110031867282, phase: 8.74492738510595, direction: phi, waveform: sine}
+initial: {x: -1.008655590176865, y: 0.28574456718772934, phi: 0.08506659383589865, vx: -1.1672698025088304e-06, vy: 1.0769896983296023e-06, omega: -6.146684773459779e-07}
+trial: {time_limit: 1, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"corners_far_below_a_light_part", R"(
+part: {half_width: 0.10441790723136632, base_distance: 2e+03, inertia: 3.4218308128725447e-06}
+slot: {clearance: 1}
+gripper: {stiffness: {}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 3.6e+07, y: 3.6e+07}, damping: {x: 0, y: 5759.878002251088}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: -1.5, frequency: 1, phase: 7.989, direction: y, waveform: sine}
+initial: {x: 0, y: -5769.701813739832, phi: -0.16721655551090797, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"side_that_loads_while_it_turns", R"(
+part: {half_width: 0.2, base_distance: 1, inertia: 3e-06}
+slot: {clearance: 7e-06, depth: 1}
+gripper: {stiffness: {phi: 5e+04}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 2e+03}, damping: {x: 0, y: 3e+01}, recovery: false}
+contacts: [edges, walls]
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, phi: -2, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"level_on_the_floor_with_a_stiff_gripper", R"(
+part: {half_width: 0.2, base_distance: 0.3, inertia: 0.004}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0.02, phi: 2e+04}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0.09, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 4e+04, y: 4e+04}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 1}
+weight: 4e+01
+excitation:
+  - {amplitude: 1, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.5, aligned_depth: 0}
+solver: {name: event, tolerance: 8e-13, step_limit: 1000}
+)"},
+      {"floor_left_while_wall_and_floor_hold", R"(
+part: {half_width: 0.2, base_distance: 6e+01, inertia: 1e-06}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, y: 1, phi: 0}}
+base: {stiffness: {x: 1, y: 5e+09}, damping: {x: 1e+07, y: 0}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 5}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, y: 1, phi: -0.03, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 1, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"corner_on_the_floor_held_by_the_wall", R"(
+part: {half_width: 7e+03, base_distance: 1, inertia: 2e-08}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, y: 1, phi: 0}}
+base: {stiffness: {x: 6e+08, y: 1}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -2e+04, y: 1, phi: -0.07, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"edge_and_corner_of_a_narrow_part", R"(
+part: {half_width: 0.0008, base_distance: 1, inertia: 2e-08}
+slot: {clearance: 4e-05}
+gripper: {stiffness: {}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 2}
+base: {stiffness: {x: 1, y: 5e+07}, damping: {x: 0, y: 9e+05}, recovery: false}
+contacts: [edges, corners]
+friction: {coefficient: 0.7}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.001, vx: 0, vy: -2.4, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"level_corners_of_high_friction", R"(
+part: {half_width: 1.3, base_distance: 0.4957, inertia: 0.02}
+slot: {clearance: 0.07}
+gripper: {stiffness: {x: 0.0012, phi: 0.01635}, damping: {x: 0, y: 2, phi: 0}, anchor: {x: -2.723, phi: 0.0054}, pressing_force: 4}
+base: {stiffness: {x: 1, y: 56}, damping: {x: 0, y: 2}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 4}
+weight: 0.2
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -2.723, y: 0.8, phi: -0.2, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 2, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"level_corners_rocked_by_the_excitation", R"(
+part: {half_width: 3, base_distance: 0.1, inertia: 0.0006}
+slot: {clearance: 0.03}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 1}, damping: {x: 0, y: 2}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 0.1, frequency: 0.04, phase: 0, direction: phi, waveform: sine}
+initial: {x: -6.1, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"corners_of_a_part_that_turns_at_once", R"(
+part: {half_width: 1, base_distance: 8e+01, inertia: 1e-08}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, y: 1, phi: 0}}
+base: {stiffness: {x: 1, y: 2e+04}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, y: 1, phi: -0.19, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 1, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"four_contacts_at_rest_at_the_start", R"(
+part: {half_width: 1, base_distance: 1.5e+03, inertia: 1}
+slot: {clearance: 1, depth: 1e+03}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, y: 1, phi: 0}}
+base: {stiffness: {x: 4e+06, y: 4e+06}, damping: {x: 0, y: 2e+03}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 5}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, y: -2e+03, phi: 0.17, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 0.0002, step_limit: 1000}
+)"},
+      {"wall_left_while_it_holds", R"(
+part: {half_width: 0.2, base_distance: 2175, inertia: 3.3e-06}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0.05116790678928892}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, y: 108.4, phi: 0}}
+base: {stiffness: {x: 6.7e+10, y: 1}, damping: {x: 6410.205929747546, y: 0}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 0.3}
+weight: 4e+01
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.054, y: 107.88622562020505, phi: -1.5212534524789711, vx: -2e-05, vy: 2e-05, omega: 0}
+trial: {time_limit: 1, aligned_depth: 0}
+solver: {name: event, tolerance: 1.5e-11, step_limit: 1000}
+)"},
+      {"one_of_two_corners_slides", R"(
+part: {half_width: 0.8, base_distance: 0.4, inertia: 1e-08}
+slot: {clearance: 6e-05}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 1}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 0.3}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -2, y: 0.02, phi: 7.5e-05, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+  };
+  return all;
+}
+
+class UnequalMobility : public testing::TestWithParam<Case> {
+ protected:
+  Scene scene() const { return test::scene_of(GetParam().text); }
+};
+INSTANTIATE_TEST_SUITE_P(scene, UnequalMobility, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
+
+/// The largest that a force has been or could be: its rounding is measured by that.
+double size_of(const Series& force, int order, double t) {
+  double sum = 0.0, power = 1.0;
+  for (int k = 0; k < order; ++k, power *= t) sum += std::abs(force[static_cast<std::size_t>(k)]) * power;
+  return sum;
+}
+
+double reach_of(const System& s, const State& q) {
+  return s.half_width + s.base_distance + s.slot_half_width + std::abs(q.x) + std::abs(q.y);
+}
+
+double speed_of(const System& s, const State& q) {
+  return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * reach_of(s, q);
+}
+
+/// Holds both ends of every segment against the laws of contact; what has been large so far tells what rounding is.
+class LawCheck {
+ public:
+  explicit LawCheck(const System& system) : system_(system) {}
+
+  void check(const Segment& g) {
+    check_at(g, 0.0, g.begin);
+    check_at(g, g.duration, g.end);
+  }
+
+ private:
+  void check_at(const Segment& g, double t, const State& state) {
+    const std::string when = " at " + std::to_string(g.start.value()) + " + " + std::to_string(t);
+    const double f = system_.friction;
+    fastest_ = std::max(fastest_, speed_of(system_, state));
+    const double slow = 1e-8 * fastest_ + 1e-13;
+    for (int i = 0; i < g.loaded_count; ++i) {
+      const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
+      const ContactState& law = g.contacts[static_cast<std::size_t>(contact.site)];
+      const double v = contact_kinematics(system_, state, contact.site, law.face).slip_velocity;
+      const double normal = value_at(contact.normal_force, g.order, t);
+      const double tangential = value_at(contact.tangential_force, g.order, t);
+      double& strongest = strongest_[static_cast<std::size_t>(contact.site)];
+      strongest = std::max(strongest, size_of(contact.normal_force, g.order, t));
+      // the base turns the last digits of depth and speed into force
+      const double stiff = stiffness_of(system_, law.face, std::cos(state.phi), std::sin(state.phi));
+      const double damping = damping_of(system_, law.face, std::cos(state.phi), std::sin(state.phi));
+      const double noise = 1e-8 * strongest + 1e-13 * (stiff * reach_of(system_, state) + damping * fastest_);
+      EXPECT_GE(normal, -noise) << "the base pulls" << when;
+      EXPECT_LE(std::abs(tangential), f * (std::abs(normal) + noise)) << "too much friction" << when;
+      if (law.slip == Slip::stick)
+        EXPECT_LE(std::abs(v), slow) << "sticks and moves" << when;
+      else if (std::abs(tangential) > f * noise)
+        EXPECT_LE(tangential * v, std::abs(tangential) * slow) << "friction drives" << when;
+    }
+  }
+
+  const System& system_;
+  double fastest_ = 0.0;
+  std::array<double, kSiteCount> strongest_{};
+};
+
+TEST_P(UnequalMobility, obeys_the_laws_of_contact) {
+  const System system = make_system(scene());
+  LawCheck laws(system);
+  const TrialResult result = test::run(scene(), [&](const Segment& g) {
+    if (!HasFailure()) laws.check(g);
+  });
+  ASSERT_TRUE(result.energy);
+  EXPECT_GE(result.energy->friction_loss, -1e-9 * result.energy->exchanged);
+  EXPECT_LT(result.energy->residual, 1e-6);
+}
+
+TEST_P(UnequalMobility, is_mirrored_in_the_mirrored_scene) {
+  const TrialResult one = test::run(scene()), other = test::run(test::mirrored(scene()));
+  EXPECT_EQ(one.outcome, other.outcome);
+  const State& q = one.final_state;
+  const double size = 1.0 + std::abs(q.x) + std::abs(q.y) + std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega);
+  EXPECT_LE(test::distance(q, test::mirrored(other.final_state)), 1e-5 * size);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
