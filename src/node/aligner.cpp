@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <ros/callback_queue.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "model/scene_loader.h"
 #include "node/transforms.h"
@@ -47,11 +48,17 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
 }
 
+template <class Message>
+SampleTopic Aligner::advertise_samples(const std::string& name) {
+  return SampleTopic(publishers_[name] = handle_.advertise<Message>(name, kQueueSize));
+}
+
 void Aligner::advertise() {
-  publishers_["state"] = handle_.advertise<AlignerState>("state", kQueueSize);
-  publishers_["reaction/a1"] = handle_.advertise<geometry_msgs::WrenchStamped>("reaction/a1", kQueueSize);
-  publishers_["reaction/a2"] = handle_.advertise<geometry_msgs::WrenchStamped>("reaction/a2", kQueueSize);
-  publishers_["contacts"] = handle_.advertise<AlignerContacts>("contacts", kQueueSize);
+  transforms_ = SampleTopic(ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", kQueueSize));
+  state_ = advertise_samples<AlignerState>("state");
+  reaction_a1_ = advertise_samples<geometry_msgs::WrenchStamped>("reaction/a1");
+  reaction_a2_ = advertise_samples<geometry_msgs::WrenchStamped>("reaction/a2");
+  contacts_ = advertise_samples<AlignerContacts>("contacts");
   publishers_["markers"] = handle_.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, true);
   publishers_["result"] = handle_.advertise<AlignerResult>("result", 1, true);
   services_ = {handle_.advertiseService("start", &Aligner::on_start, this),
@@ -135,11 +142,16 @@ void Aligner::publish_next() {
 
 void Aligner::publish(const Sample& sample) {
   const ros::Time stamp = next_stamp();
-  transforms_.sendTransform(part_transform(sample.state, messages_.units().length, messages_.frames(), stamp));
-  publishers_["state"].publish(messages_.state(sample, stamp));
-  publishers_["reaction/a1"].publish(messages_.reaction(sample, Site::a1, stamp));
-  publishers_["reaction/a2"].publish(messages_.reaction(sample, Site::a2, stamp));
-  publishers_["contacts"].publish(messages_.contacts(sample, stamp));
+  bool queued = transforms_.queue([&] {
+    tf2_msgs::TFMessage moving;
+    moving.transforms = {part_transform(sample.state, messages_.units().length, messages_.frames(), stamp)};
+    return moving;
+  });
+  queued |= state_.queue([&] { return messages_.state(sample, stamp); });
+  queued |= reaction_a1_.queue([&] { return messages_.reaction(sample, Site::a1, stamp); });
+  queued |= reaction_a2_.queue([&] { return messages_.reaction(sample, Site::a2, stamp); });
+  queued |= contacts_.queue([&] { return messages_.contacts(sample, stamp); });
+  if (queued) send_queued_messages();
   markers_.add(sample);
   if (activity_ != Activity::running || Clock::now() >= next_picture_) publish_markers(stamp);
 }

@@ -13,7 +13,6 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <vibratory_alignment/AlignerConfig.h>
 #include <boost/thread/recursive_mutex.hpp>
 
@@ -23,6 +22,7 @@
 #include "node/messages.h"
 #include "node/node_parameters.h"
 #include "node/pacer.h"
+#include "node/sample_topic.h"
 #include "node/trial_run.h"
 
 namespace vibratory_alignment {
@@ -41,6 +41,8 @@ class Aligner {
   enum class Activity { waiting, paused, running, ended };
 
   void advertise();
+  template <class Message>
+  SampleTopic advertise_samples(const std::string& name);
   bool on_start(Trigger::Request&, Trigger::Response& response);
   bool on_pause(Trigger::Request&, Trigger::Response& response);
   bool on_step(Trigger::Request&, Trigger::Response& response);
@@ -74,7 +76,7 @@ class Aligner {
 
   std::map<std::string, ros::Publisher> publishers_;  ///< by the names in topic_names()
   std::vector<ros::ServiceServer> services_;
-  tf2_ros::TransformBroadcaster transforms_;
+  SampleTopic transforms_, state_, reaction_a1_, reaction_a2_, contacts_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   boost::recursive_mutex settings_mutex_;
   dynamic_reconfigure::Server<AlignerConfig> settings_server_;

@@ -10,6 +10,8 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr int kLeadingTerms = 4;
+/// Of a velocity: slower is at rest. To become as fast as anything that matters it would have to grow 138 times e-fold.
+constexpr double kRest = 1e-60;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Base-2 logarithm of a normal positive number, good to 0.1: exponent and leading digits, read off its bits.
@@ -40,7 +42,9 @@ double series_step(const Segment& segment, double friction, double tolerance) {
   double shortest = kInfinity;
   for (const Series* v : {&segment.vx, &segment.vy, &segment.omega}) {
     // an axis whose leading terms vanish has no scale of its own
-    if ((*v)[0] == 0.0 && (*v)[1] == 0.0 && (*v)[2] == 0.0 && (*v)[3] == 0.0) continue;
+    if (std::abs((*v)[0]) < kRest && std::abs((*v)[1]) < kRest && std::abs((*v)[2]) < kRest &&
+        std::abs((*v)[3]) < kRest)
+      continue;
     shortest = std::min(shortest, log2_step(*v, segment.order, log2_tolerance));
   }
   // a contact that holds the part at rest: all that changes is T

@@ -21,6 +21,8 @@ class Topics(AlignerTestCase):
         for topic, listener in listeners.items():
             self.assertGreater(len(listener.messages), 100, topic)
             self.assertEqual({message.header.frame_id for message in listener.messages}, {FRAMES[topic]})
+            numbers = [message.header.seq for message in listener.messages]
+            self.assertEqual(numbers, list(range(numbers[0], numbers[0] + len(numbers))), topic + ': one after the other')
             stamps[topic] = [message.header.stamp for message in listener.messages]
             for earlier, later in zip(stamps[topic], stamps[topic][1:]):
                 self.assertLess(earlier, later, topic + ': stamps must rise')

@@ -2,6 +2,7 @@
 // every segment, event and result to the last bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ using test::scene_of;
 
 using Settings = std::vector<std::string>;
 
+/// Of a velocity: slower is at rest.
+constexpr double kRest = 1e-60;
+
 /// Start and end of every segment, its events, and what the result says of the contacts.
 std::vector<double> trace(const Scene& scene, bool energy = true) {
   SimulationOptions options;
@@ -23,7 +27,9 @@ std::vector<double> trace(const Scene& scene, bool energy = true) {
   options.until = scene.trial.time_limit;
   Simulation simulation(scene, options);
   std::vector<double> numbers;
-  const auto add = [&](const State& s) { numbers.insert(numbers.end(), {s.x, s.y, s.phi, s.vx, s.vy, s.omega}); };
+  const auto add = [&](const State& s) {
+    numbers.insert(numbers.end(), {s.x, s.y, s.phi, s.vx, s.vy, std::abs(s.omega) < kRest ? 0.0 : s.omega});
+  };
   while (simulation.advance()) {
     const Segment& segment = simulation.segment();
     numbers.push_back(segment.start.high);
@@ -125,6 +131,14 @@ TEST(NeutralEffect, tilt_that_nothing_excites) {
   expect_same(scene_of(upright), scene_of(upright, turns));
   expect_same(scene_of(upright, {"gripper.stiffness.x=0.53"}),
               scene_of(upright, {"gripper.stiffness.x=0.53", turns[0], turns[1], turns[2]}));
+}
+
+// So heavy that no moment turns it.
+TEST(NeutralEffect, tilt_of_endless_inertia) {
+  const std::string locked = "part={half_width: 0.673, base_distance: 0.9015}", heavy = "part.inertia=1.0e+100";
+  for (const char* friction : {"friction={coefficient: 0.0}", "friction={coefficient: 0.3}"})
+    for (const char* base : {"base.stiffness.x=7600.0", "base.stiffness.x=3648.0"})
+      expect_same(with({friction, base, locked}), with({friction, base, heavy}));
 }
 
 TEST(NeutralEffect, energy_ledger_that_nobody_reads) {

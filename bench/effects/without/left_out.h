@@ -41,7 +41,8 @@ class LockedMotion : public FreeMotion {
     q_ = q;
   }
   constexpr bool exact() const { return true; }
-  typename FreeMotion::Bounds bounds(double) const { return {}; }
+  typename FreeMotion::Bounds bounds(double, double) const { return {}; }
+  constexpr double rate(double) const { return 0.0; }
   void at(double, double& q, double& v) const {
     q = q_;
     v = 0.0;
