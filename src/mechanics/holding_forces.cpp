@@ -97,7 +97,7 @@ double HoldingForces::mobility(int i) const {
          inverse_inertia_[2] * row.moment * row.moment;
 }
 
-/// Where rows are nearly the same the inverse is large, and its product with rhs inexact: what is left over is taken out
+/// Where rows are nearly the same the inverse is large, and its product with rhs inexact: what is left is taken out
 /// once more.
 HoldingForces::Answer HoldingForces::hold_with(const Factor& factor, const Vector& rhs) const {
   Answer answer;
@@ -158,8 +158,7 @@ HoldingForces::Vector HoldingForces::spread(const Vector& noise) const {
     return error;
   }
   for (int i = 0; i < count_; ++i)
-    for (int j = 0; j < count_; ++j)
-      error[i] += std::abs(safe_.inverse.col(i).dot(safe_.inverse.col(j))) * noise[j];
+    for (int j = 0; j < count_; ++j) error[i] += std::abs(safe_.inverse.col(i).dot(safe_.inverse.col(j))) * noise[j];
   return error;
 }
 

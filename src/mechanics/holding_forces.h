@@ -1,9 +1,9 @@
 // The tangential forces that hold sticking contacts, and what they change of the motion (docs/hybrid_step.md "Stick").
 //
 // With J the rows (t_x, t_y, r x t) of the contacts, G = J M^-1 J^T is never formed: it would square the ratio between
-// the mobilities of the axes, and what little one of them adds to the other would be lost in its last digits. The factor
-// J M^-1/2 keeps it. Whether contacts hold the same motion is asked of J alone, with levers measured by the size of the
-// part, so that it does not depend on the inertia.
+// the mobilities of the axes, and what little one of them adds to the other would be lost. The factor J M^-1/2 keeps
+// it. Whether contacts hold the same motion is asked of J alone, with levers measured by the size of the part, so that
+// it does not depend on the inertia.
 #pragma once
 
 #include <array>

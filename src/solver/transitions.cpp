@@ -19,8 +19,8 @@ double speed_scale(const System& system, const State& state) {
 
 /// Speed gained at the acceleration of the segment's start.
 double speed_gain(const System& system, const Segment& segment) {
-  State gain;
   if (segment.flight != nullptr) return 0.0;
+  State gain;
   gain.vx = segment.duration * segment.vx[1];
   gain.vy = segment.duration * segment.vy[1];
   gain.omega = segment.duration * segment.omega[1];
@@ -35,7 +35,7 @@ double speed_scale(const System& system, const Segment& segment) {
 /// A friction force this near to its limit, relative to it, is at the limit.
 constexpr double kAtLimit = 1e-2;
 
-/// A time in which nothing moves, unless speeds change by more than this part of them: what happens within it coincides.
+/// A time in which nothing moves, unless speeds change by more than this part of them: what happens in it coincides.
 constexpr double kInstant = 1e-15, kNoChange = 1e-9;
 
 bool is_instant(const System& system, const Segment& segment) {

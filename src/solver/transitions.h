@@ -17,8 +17,8 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,
                           FrictionChoice& friction, ContactMode& mode);
 
-/// How far T of what sticks is beyond f N at the segment's start, at most, as a share of the f N that the next
-/// `step` sees. T of contacts that hold nearly the same motion is not known to the last digit while that motion is; where it
+/// How far T of what sticks is beyond f N at the segment's start, at most, as a share of the f N that the next `step`
+/// sees. T of contacts that hold nearly the same motion is not known to the last digit while that motion is; where it
 /// becomes known it may be too large.
 double excess_friction(const System& system, const Segment& segment, double step);
 
