@@ -10,6 +10,7 @@ import unittest
 
 import rospy
 from geometry_msgs.msg import WrenchStamped
+from roslib.packages import find_node
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
@@ -106,9 +107,14 @@ class AlignerTestCase(unittest.TestCase):
         return result.messages[-1]
 
 
+def program(name):
+    """Path of a program of the package in the build that is tested."""
+    return find_node('vibratory_alignment', name)[0]
+
+
 def align(*arguments):
     """Output of the command line."""
-    return subprocess.check_output(('rosrun', 'vibratory_alignment', 'align') + arguments, universal_newlines=True)
+    return subprocess.check_output((program('align'),) + arguments, universal_newlines=True)
 
 
 def trial_rows(scene, sample):

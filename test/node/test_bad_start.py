@@ -8,12 +8,12 @@ import rospy
 import rostest
 import yaml
 
-from aligner_test_case import scene_path
+from aligner_test_case import program, scene_path
 
 
 def start(*arguments):
     """Exit status and log of a node that is to end by itself."""
-    process = subprocess.run(('rosrun', 'vibratory_alignment', 'aligner_node', '__name:=bad') + arguments,
+    process = subprocess.run((program('aligner_node'), '__name:=bad') + arguments,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=20, universal_newlines=True)
     return process.returncode, process.stdout
 
