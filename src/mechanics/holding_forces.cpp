@@ -22,6 +22,9 @@ constexpr double kNoMobility = 2e-15;
 /// Ratio of the axes' mobilities from which on the last digits of a force show in the motion.
 constexpr double kUnequal = 1e6;
 
+/// Ratio beyond which the less mobile axis does not move at all.
+constexpr double kMotionless = 1e60;
+
 /// Products with the inverse until rhs is met to rounding.
 constexpr int kPasses = 2;
 
@@ -77,7 +80,7 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   double least = most, largest = 0.0;
   for (int a = 0; a < 3; ++a) {
     scale_[a] = std::sqrt(weight[a]);
-    if (weight[a] > 0.0) least = std::min(least, weight[a]);
+    if (weight[a] * kMotionless > most) least = std::min(least, weight[a]);
   }
   for (int i = 0; i < count; ++i) largest = std::max(largest, mobility(i));
   holds_nothing_ = largest <= kNoMobility * typical_mobility(system);

@@ -318,10 +318,11 @@ class LawCheck {
       const double noise = 1e-8 * strongest + 1e-13 * (stiff * reach_of(system_, state) + damping * fastest_);
       EXPECT_GE(normal, -noise) << "the base pulls" << when;
       EXPECT_LE(std::abs(tangential), f * (std::abs(normal) + noise)) << "too much friction" << when;
-      if (law.slip == Slip::stick)
+      if (law.slip == Slip::stick) {
         EXPECT_LE(std::abs(v), slow) << "sticks and moves" << when;
-      else if (std::abs(tangential) > f * noise)
+      } else if (std::abs(tangential) > f * noise) {
         EXPECT_LE(tangential * v, std::abs(tangential) * slow) << "friction drives" << when;
+      }
     }
   }
 
