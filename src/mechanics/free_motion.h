@@ -20,8 +20,8 @@ class FreeMotion {
   void begin(const Axis& axis, double q, double v, double constant_force);
   void add(const DriveForm& form);
   /// Fixes the constants of the motion and adds what it is made of to `waves`. After it, exact() tells whether the
-  /// closed form holds to roundoff: it does not during a chirp and where two of its terms cancel (a nearly undamped axis
-  /// driven near resonance, a nearly vanishing stiffness); the power series of the segment is then as exact.
+  /// closed form holds to roundoff: it does not during a chirp and where two of its terms cancel (a nearly undamped
+  /// axis driven near resonance, a nearly vanishing stiffness); the power series of the segment is then as exact.
   void settle(Waves& waves);
   bool exact() const { return exact_; }
 

@@ -24,8 +24,7 @@ State hold_sticking(const System& system, const State& state, const ContactState
   std::array<ContactKinematics, kSiteCount> held;
   int count = 0;
   for (std::size_t i = 0; i < kSiteCount; ++i)
-    if (sticks(contacts[i]))
-      held[count++] = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
+    if (sticks(contacts[i])) held[count++] = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
   HoldingForces::Rows rows;
   HoldingForces::Vector rhs{}, noise{};
   for (int i = 0; i < count; ++i) {

@@ -88,8 +88,7 @@ class SegmentCheck {
 
     const double speed = speed_of(system_, segment_, state_), digits = kDigits + kCut * tolerance_;
     const double n_terms = magnitude_at(contact.normal_force, order, t_);
-    const double n_noise =
-        p.stiffness * depth_noise() + p.damping * digits * speed + (kDigits + tolerance_) * n_terms;
+    const double n_noise = p.stiffness * depth_noise() + p.damping * digits * speed + (kDigits + tolerance_) * n_terms;
     if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
     if (std::abs(n - p.normal_force) > 10.0 * n_noise)
       return fault(Invariant::base_pushes, "N - (k d + h d')", n - p.normal_force);
@@ -142,8 +141,7 @@ class SegmentCheck {
     const double surface = contact.base_deformation * std::exp(-contact.recovery_rate * t_);  // of a base that recovers
     const double depth = depth_inside(site) - surface;
     const double at_once = system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0;
-    if (depth > depth_noise() + at_once)
-      return fault(Invariant::no_passing, "depth of a point that is outside", depth);
+    if (depth > depth_noise() + at_once) return fault(Invariant::no_passing, "depth of a point that is outside", depth);
     return {};
   }
 

@@ -28,7 +28,8 @@ HoldingForces holding_of(const System& system, const HoldingForces::Rows& rows, 
 }
 
 /// G T, from the definition.
-double rate_of(const System& s, const TangentRow& row, const HoldingForces::Rows& rows, const Vector& force, int count) {
+double rate_of(const System& s, const TangentRow& row, const HoldingForces::Rows& rows, const Vector& force,
+               int count) {
   double rate = 0.0;
   for (int j = 0; j < count; ++j) {
     const TangentRow& other = rows[static_cast<std::size_t>(j)];
