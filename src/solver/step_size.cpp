@@ -41,10 +41,10 @@ double series_step(const Segment& segment, double friction, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
   double shortest = kInfinity;
   for (const Series* v : {&segment.vx, &segment.vy, &segment.omega}) {
-    // an axis whose leading terms vanish has no scale of its own
-    if (std::abs((*v)[0]) < kRest && std::abs((*v)[1]) < kRest && std::abs((*v)[2]) < kRest &&
-        std::abs((*v)[3]) < kRest)
-      continue;
+    // an axis whose leading terms vanish has no scale of its own; what is at rest must not begin to move either
+    const double leading = std::max({std::abs((*v)[0]), std::abs((*v)[1]), std::abs((*v)[2]), std::abs((*v)[3])});
+    const double last = std::max(std::abs((*v)[segment.order - 1]), std::abs((*v)[segment.order]));
+    if (leading == 0.0 || std::max(leading, last) < kRest) continue;
     shortest = std::min(shortest, log2_step(*v, segment.order, log2_tolerance));
   }
   // a contact that holds the part at rest: all that changes is T
