@@ -10,20 +10,15 @@
 
 #include "../support/mirror.h"
 #include "../support/motion_check.h"
+#include "../support/named_scene.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
 
 namespace vibratory_alignment {
 namespace {
 
-struct Case {
-  std::string name, text;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
-
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {
+const std::vector<test::NamedScene>& cases() {
+  static const std::vector<test::NamedScene> all = {
       {"side_against_edge_and_wall_at_once", R"(
 part: {half_width: 0.5, base_distance: 0.5}
 slot: {clearance: 0.01, depth: 1}
@@ -337,7 +332,7 @@ trial: {time_limit: 0.04, aligned_depth: 0}
   return all;
 }
 
-class SeveralContacts : public testing::TestWithParam<Case> {
+class SeveralContacts : public testing::TestWithParam<test::NamedScene> {
  protected:
   Scene scene(double tolerance) const {
     Scene scene = test::scene_of(GetParam().text);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../support/mirror.h"
+#include "../support/named_scene.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
 #include "mechanics/contact_frame.h"
@@ -17,14 +18,8 @@
 namespace vibratory_alignment {
 namespace {
 
-struct Case {
-  std::string name, text;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
-
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {
+const std::vector<test::NamedScene>& cases() {
+  static const std::vector<test::NamedScene> all = {
       {"level_corners_pressed_hard", R"(
 part: {half_width: 0.1, base_distance: 0.2, inertia: 0.0003}
 slot: {clearance: 0.004}
@@ -266,7 +261,7 @@ solver: {name: event, tolerance: 1e-08, step_limit: 1000}
   return all;
 }
 
-class UnequalMobility : public testing::TestWithParam<Case> {
+class UnequalMobility : public testing::TestWithParam<test::NamedScene> {
  protected:
   Scene scene() const { return test::scene_of(GetParam().text); }
 };

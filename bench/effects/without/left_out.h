@@ -43,9 +43,14 @@ class LockedMotion : public FreeMotion {
   constexpr bool exact() const { return true; }
   typename FreeMotion::Bounds bounds(double, double) const { return {}; }
   constexpr double rate(double) const { return 0.0; }
-  void at(double, double& q, double& v) const {
+  template <typename Waves>
+  void at(double, const Waves&, double& q, double& v) const {
     q = q_;
     v = 0.0;
+  }
+  template <typename Waves>
+  constexpr double acceleration(double, const Waves&, double, double) const {
+    return 0.0;
   }
 
  private:
