@@ -113,7 +113,9 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   const HoldingForces::Answer held = holding_.hold(rates, noise);
   for (int m = 0; m < sticking_count_; ++m) segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
   change_motion(k, held, segment);
-  if (!holding_.delicate()) {
+  // V of what slides beside them may begin with less than the rounding of these forces makes of it
+  const bool something_slides = segment.loaded_count > sticking_count_;
+  if (!holding_.delicate() && !something_slides) {
     watch_held(k, rates, noise, held);
     return;
   }

@@ -243,6 +243,20 @@ initial: {x: -0.054, y: 107.88622562020505, phi: -1.5212534524789711, vx: -2e-05
 trial: {time_limit: 1, aligned_depth: 0}
 solver: {name: event, tolerance: 1.5e-11, step_limit: 1000}
 )"},
+      {"level_corners_parted_by_a_small_moment", R"(
+part: {half_width: 0.3, base_distance: 1, inertia: 0.002}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0, phi: 0.1}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0.01}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 7e+03}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 1}
+weight: 6e+01
+excitation:
+  - {amplitude: 1, frequency: 1, phase: -8, direction: y, waveform: sine}
+initial: {x: 0, phi: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.05, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
       {"one_of_two_corners_slides", R"(
 part: {half_width: 0.8, base_distance: 0.4, inertia: 1e-08}
 slot: {clearance: 6e-05}
