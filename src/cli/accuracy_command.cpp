@@ -148,7 +148,7 @@ void print_advice(const Scene& scene, const std::vector<AccuracyRun>& runs, cons
 
 int run_accuracy(const Options& options) {
   const std::string file = find_scene(options.scene);
-  YAML::Node tree = read_scene_file(file);
+  YAML::Node tree = read_yaml_file(file);
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
   const Scene scene = load_scene(tree, file);
   std::unique_ptr<OutputPath> csv, picture;

@@ -117,7 +117,7 @@ const SolverName* solver_of(const YAML::Node& tree) {
 
 /// The scene with everything that the options change in it.
 Scene load(const TrialOptions& options, const std::string& file) {
-  YAML::Node tree = read_scene_file(file);
+  YAML::Node tree = read_yaml_file(file);
   if (!options.solver.empty()) {
     apply_setting(tree, "solver.name=" + options.solver);
     // What the scene gives for its own solver means nothing to one of the other kind.

@@ -93,6 +93,7 @@ class Simulation::Impl {
     for (int i = 0; i < kSpotCount; ++i) {
       const auto spot = static_cast<Spot>(i);
       r.impacts[static_cast<std::size_t>(i)] = contacts_.impacts(spot);
+      r.impact_times[static_cast<std::size_t>(i)] = contacts_.impact_times(spot);
       r.peak_force[static_cast<std::size_t>(i)] = contacts_.peak_force(spot);
       if (scene_.trial.force_limit && contacts_.peak_force(spot) > *scene_.trial.force_limit)
         r.force_limit_exceeded = true;
