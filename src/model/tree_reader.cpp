@@ -13,7 +13,7 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t longest_echo = 60, longest_line = 100;
+constexpr std::size_t longest_echo = 60, longest_line = 100, longest_text = 1000;
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
@@ -30,6 +30,23 @@ std::string echo(const YAML::Node& node) {
   if (node.IsMap()) return "(a map)";
   if (node.IsSequence()) return "(a list)";
   return node.Scalar().empty() ? "(empty text)" : echo(node.Scalar());
+}
+
+/// The node's text with single blanks between its words; none when it is empty, too long or holds other control
+/// characters than those between words.
+std::optional<std::string> text_of(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Scalar().size() > longest_text) return std::nullopt;
+  std::string text;
+  for (const char c : node.Scalar()) {
+    const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+    if (is_control(c) && !blank) return std::nullopt;
+    if (!blank)
+      text += c;
+    else if (!text.empty() && text.back() != ' ')
+      text += ' ';
+  }
+  if (!text.empty() && text.back() == ' ') text.pop_back();
+  return text.empty() ? std::nullopt : std::optional(text);
 }
 
 std::string join(const std::vector<std::string>& words, const std::string& last_separator) {
@@ -188,6 +205,29 @@ std::optional<std::string> TreeReader::line(const std::string& key) {
   if (!text.empty() && text.size() <= longest_line && std::none_of(text.begin(), text.end(), is_control)) return text;
   fault(key, "must be text on one line, of 1 to " + std::to_string(longest_line) + " bytes");
   return std::nullopt;
+}
+
+std::optional<std::string> TreeReader::text(const std::string& key) {
+  const YAML::Node* node = value(key);
+  if (!node) return std::nullopt;
+  const std::optional<std::string> text = text_of(*node);
+  if (!text) fault(key, "must be text, of 1 to " + std::to_string(longest_text) + " bytes");
+  return text;
+}
+
+std::vector<std::string> TreeReader::texts(const std::string& key) {
+  const YAML::Node* node = value(key);
+  std::vector<std::string> texts;
+  if (!node) return texts;
+  const std::size_t count = node->IsSequence() ? node->size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<std::string> text = text_of(node->IsSequence() ? (*node)[i] : *node);
+    if (text)
+      texts.push_back(*text);
+    else
+      fault(key, "must be text or a list of texts, of 1 to " + std::to_string(longest_text) + " bytes each");
+  }
+  return texts;
 }
 
 std::optional<std::size_t> TreeReader::choice(const std::string& key, const std::vector<std::string>& words) {

@@ -65,6 +65,12 @@ class TreeReader {
   /// One printable line of at most 100 bytes.
   std::optional<std::string> line(const std::string& key);
 
+  /// Printable text of at most 1000 bytes; what YAML folds or breaks into lines comes as one, with single blanks.
+  std::optional<std::string> text(const std::string& key);
+
+  /// A list of texts, or one text alone; absent: none.
+  std::vector<std::string> texts(const std::string& key);
+
   /// One of the words: its index.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& words);
 

@@ -41,6 +41,18 @@ class ContactTotals {
   std::array<double, kSpotCount> times_{};
 };
 
+/// A trial without a change of mode has been in its mode all the time.
+double nonimpact_time(const TrialResult& result) {
+  if (result.mode_changes.empty()) return result.mode == Mode::nonimpact ? result.final_time : 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < result.mode_changes.size(); ++i) {
+    if (result.mode_changes[i].mode != Mode::nonimpact) continue;
+    const bool last = i + 1 == result.mode_changes.size();
+    sum += (last ? result.final_time : result.mode_changes[i + 1].time) - result.mode_changes[i].time;
+  }
+  return sum;
+}
+
 TrialRow row_of(const TrialResult& result, const ContactTotals& totals, const OutputUnits& units) {
   TrialRow row;
   row.outcome = result.outcome;
@@ -48,6 +60,7 @@ TrialRow row_of(const TrialResult& result, const ContactTotals& totals, const Ou
   row.mode = result.mode;
   if (result.aligned_time) row.duration = *result.aligned_time * units.time;
   row.end_time = result.final_time * units.time;
+  row.nonimpact_time = nonimpact_time(result) * units.time;
   const State& end = result.final_state;
   row.end = {end.x * units.length,    end.y * units.length,    end.phi,
              end.vx * units.velocity, end.vy * units.velocity, end.omega * units.angular_velocity};

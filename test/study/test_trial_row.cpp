@@ -100,6 +100,24 @@ TEST(TrialRow, FrictionOfASlidingPartIsTheCoefficientTimesTheNormalImpulse) {
   EXPECT_NEAR(row.impulse_x[0], row.friction_impulse[0], 1e-12);
 }
 
+// Pressed with less than the excitation a ball bounces, with more it does not; what is in between changes over, and the
+// time in nonimpact mode is that between the changes.
+TEST(TrialRow, NonimpactTimeIsTheTimeInThatMode) {
+  const auto row_of = [](const std::string& force) {
+    return run_trial_row(scene_of(test::ball, {"gripper={pressing_force: " + force + "}", "initial={x: 0.2}",
+                                               "excitation={amplitude: 1, frequency: 10}"}), 0);
+  };
+  EXPECT_EQ(row_of("0.1").mode, Mode::impact);
+  EXPECT_EQ(row_of("0.1").nonimpact_time, 0.0);
+  EXPECT_EQ(row_of("3").mode, Mode::nonimpact);
+  EXPECT_EQ(row_of("3").nonimpact_time, row_of("3").end_time);
+  // comes to rest on the base: bounces first, then stays
+  const Scene resting = scene_of(test::ball, {"gripper={anchor: {y: 0.6}}", "trial.time_limit=20"});
+  const TrialResult result = test::run(resting);
+  ASSERT_EQ(result.mode_changes.size(), 2u);
+  EXPECT_NEAR(run_trial_row(resting, 0).nonimpact_time, result.final_time - result.mode_changes[1].time, 1e-15);
+}
+
 // The scene in SI units is the same motion: numbers differ by the units' sizes.
 TEST(TrialRow, IsInTheUnitsOfTheScene) {
   const std::string si = R"(
