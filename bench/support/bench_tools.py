@@ -23,10 +23,11 @@ def output_of(command):
     return process.stdout
 
 
-def count(command, folder):
-    """What the program prints, under callgrind; its files go to the folder."""
+def count(command, folder, counted=COUNTED):
+    """What the program prints, under callgrind; its files go to the folder. counted None: all of the program."""
+    collect = ["--toggle-collect=" + counted] if counted else []
     return output_of(["valgrind", "--tool=callgrind", "--log-file=" + os.path.join(folder, "log"),
-                      "--toggle-collect=" + COUNTED, "--callgrind-out-file=" + os.path.join(folder, "out")] + command)
+                      "--callgrind-out-file=" + os.path.join(folder, "out")] + collect + command)
 
 
 def instructions_of(command):
@@ -37,10 +38,10 @@ def instructions_of(command):
             return text, int(re.search(r"Collected : (\d+)", file.read()).group(1))
 
 
-def instructions_by_function(command, functions):
+def instructions_by_function(command, functions, counted=COUNTED):
     """(what the program prints, {function: instructions in it and in all that it calls}) in Simulation::advance."""
     with tempfile.TemporaryDirectory(prefix="bench_") as folder:
-        text = count(command, folder)
+        text = count(command, folder, counted)
         listing = output_of(["callgrind_annotate", "--inclusive=yes", "--threshold=100", os.path.join(folder, "out")])
     found = {}
     for line in listing.splitlines():
