@@ -45,7 +45,7 @@ def instructions_by_function(command, functions, counted=COUNTED):
         listing = output_of(["callgrind_annotate", "--inclusive=yes", "--threshold=100", os.path.join(folder, "out")])
     found = {}
     for line in listing.splitlines():
-        entry = re.match(r" *([\d,]+) \([ \d.]+%\)\s+\S+?:(?:vibratory_alignment::)?([\w:]+)\(", line)
+        entry = re.match(r" *([\d,]+) \([ \d.]+%\)\s+\S+?:(?:vibratory_alignment::)?([\w:]+)(?:\[abi:\w+\])?\(", line)
         if entry and entry.group(2) in functions:
             found[entry.group(2)] = max(found.get(entry.group(2), 0), int(entry.group(1).replace(",", "")))
     return text, {name: found.get(name, 0) for name in functions}
