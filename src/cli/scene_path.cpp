@@ -83,6 +83,7 @@ struct Kind {
 
 constexpr Kind kScene = {"scenes", "scene", "SCENE"};
 constexpr Kind kStudy = {"studies", "study", "STUDY"};
+constexpr Kind kFacts = {"paper", "facts file", "--facts"};
 
 /// The first such folder there is; empty when there is none.
 fs::path directory_of(const Kind& kind) {
@@ -132,5 +133,6 @@ std::string find(const Kind& kind, const std::string& argument) {
 
 std::string find_scene(const std::string& argument) { return find(kScene, argument); }
 std::string find_study(const std::string& argument) { return find(kStudy, argument); }
+std::string find_facts(const std::string& argument) { return find(kFacts, argument); }
 
 }  // namespace vibratory_alignment

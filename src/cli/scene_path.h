@@ -1,4 +1,4 @@
-// Finds the scene or study that is named on the command line.
+// Finds the scene, study or facts file that is named on the command line.
 #pragma once
 
 #include <string>
@@ -11,5 +11,8 @@ std::string find_scene(const std::string& argument);
 
 /// The same for a study, in config/studies.
 std::string find_study(const std::string& argument);
+
+/// The same for a facts file, in config/paper.
+std::string find_facts(const std::string& argument);
 
 }  // namespace vibratory_alignment
