@@ -1,24 +1,18 @@
 #include "cli/csv_writer.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 
 #include "cli/errors.h"
+#include "model/number_text.h"
 
 namespace vibratory_alignment {
 namespace {
 
 constexpr char kHeader[] = "t,x,y,phi,vx,vy,omega,n1,n2,t1,t2,nb1,nb2,tb1,tb2,nf1,nf2,tf1,tf2,event\n";
 
-/// Appends `value` with the fewest digits that read back as the same double, and a comma.
 void append(std::string& line, double value) {
-  char text[32];
-  for (int digits = 15; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
-  }
-  line += text;
+  line += number_text(value);
   line += ',';
 }
 

@@ -1,4 +1,5 @@
 // A scene's tree: read from a file, changed by settings. What it means is up to load_scene (scene_loader.cpp).
+// A study's file (study/study_file.h) is read in the same way.
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
@@ -90,11 +91,11 @@ class DocumentCounter : public YAML::EventHandler {
 
 /// The one document of the text. `source` is for messages.
 YAML::Node parse(const std::string& text, const std::string& source) {
-  if (text.size() > most_bytes) throw SceneError(source, {"is too large: a scene has at most 64 KiB"});
+  if (text.size() > most_bytes) throw SceneError(source, {"is too large: at most 64 KiB are read"});
   if (!is_text(text)) throw SceneError(source, {"is not text (UTF-8)"});
   if (count_marks(text) > most_marks)
-    throw SceneError(source, {"is too large: a scene has at most " + std::to_string(most_marks) +
-                              " keys, list entries and brackets"});
+    throw SceneError(
+        source, {"is too large: at most " + std::to_string(most_marks) + " keys, list entries and brackets are read"});
   YAML::Node tree;
   int documents = 0;
   try {
@@ -130,8 +131,8 @@ bool is_key(const YAML::Node& node, const std::string& key) { return node.IsScal
 /// through, so that what an alias shares with them keeps its value.
 class Setting {
  public:
-  Setting(const std::string& assignment, const std::vector<std::string>& keys, const YAML::Node& value)
-      : assignment_(assignment), keys_(keys), value_(value) {}
+  Setting(const std::string& source, const std::vector<std::string>& keys, const YAML::Node& value)
+      : source_(source), keys_(keys), value_(value) {}
 
   YAML::Node applied_to(const YAML::Node& node, std::size_t level = 0) const {
     if (level == keys_.size()) return value_;
@@ -176,20 +177,20 @@ class Setting {
     return copy;
   }
 
-  [[noreturn]] void fail(const std::string& fault) const { throw SceneError("--set " + assignment_, {fault}); }
+  [[noreturn]] void fail(const std::string& fault) const { throw SceneError(source_, {fault}); }
 
-  const std::string& assignment_;
+  const std::string& source_;
   const std::vector<std::string>& keys_;
   const YAML::Node& value_;
 };
 
 }  // namespace
 
-YAML::Node read_scene_file(const std::string& path) {
+YAML::Node read_yaml_file(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw SceneError(path, {"there is no such file"});
-  if (std::filesystem::is_directory(status)) throw SceneError(path, {"is a directory: name a scene file in it"});
+  if (std::filesystem::is_directory(status)) throw SceneError(path, {"is a directory: name a file in it"});
   std::ifstream file(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(status) || !file) throw SceneError(path, {"cannot be read"});
   std::string text(most_bytes + 1, '\0');
@@ -201,17 +202,38 @@ YAML::Node read_scene_file(const std::string& path) {
   return tree;
 }
 
+void set_value(YAML::Node& tree, const std::string& key_path, const YAML::Node& value, const std::string& source) {
+  const std::vector<std::string> keys = split_key_path(key_path);
+  if (keys.empty()) throw SceneError(source, {key_path + ": must read key.path"});
+  tree.reset(Setting(source, keys, value).applied_to(tree));
+}
+
+std::optional<YAML::Node> find_value(const YAML::Node& tree, const std::string& key_path) {
+  YAML::Node found = tree;
+  for (const std::string& key : split_key_path(key_path)) {
+    std::optional<YAML::Node> below;
+    std::size_t position = 0;
+    for (const auto& entry : found) {
+      if (found.IsMap() && is_key(entry.first, key)) below.emplace(entry.second);
+      if (found.IsSequence() && parse_number(key) == static_cast<double>(position++)) below.emplace(entry);
+    }
+    if (!below) return std::nullopt;
+    found.reset(*below);
+  }
+  return found;
+}
+
 void apply_setting(YAML::Node& tree, const std::string& assignment) {
+  const std::string source = "--set " + assignment;
   const std::size_t equals = assignment.find('=');
-  const std::vector<std::string> keys = split_key_path(assignment.substr(0, equals));
-  if (equals == std::string::npos || equals + 1 == assignment.size() || keys.empty())
-    throw SceneError("--set " + assignment, {"must read key.path=value"});
-  const YAML::Node value = parse(assignment.substr(equals + 1), "--set " + assignment);
-  tree.reset(Setting(assignment, keys, value).applied_to(tree));
+  const std::string key_path = assignment.substr(0, equals);
+  if (equals == std::string::npos || equals + 1 == assignment.size() || split_key_path(key_path).empty())
+    throw SceneError(source, {"must read key.path=value"});
+  set_value(tree, key_path, parse(assignment.substr(equals + 1), source), source);
 }
 
 Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings) {
-  YAML::Node tree = read_scene_file(path);
+  YAML::Node tree = read_yaml_file(path);
   for (const std::string& setting : settings) apply_setting(tree, setting);
   return load_scene(tree, path);
 }

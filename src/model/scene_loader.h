@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ class SceneError : public std::runtime_error {
 };
 
 /// Reads a YAML file into a tree. Throws SceneError when it is missing, unreadable, not a file, empty or not YAML.
-YAML::Node read_scene_file(const std::string& path);
+YAML::Node read_yaml_file(const std::string& path);
 
 /// Does what --set does: puts the value, itself YAML, at a key path ("friction.coefficient=0.3",
 /// "excitation.1.phase=0.5", "contacts=[edges, corners]"; list entries count from 0), making sections that are not
@@ -33,6 +34,12 @@ YAML::Node read_scene_file(const std::string& path);
 /// another thread). Throws SceneError when `assignment` is not "key.path=value" or leads through something that is not
 /// a map or list.
 void apply_setting(YAML::Node& tree, const std::string& assignment);
+
+/// The same with key path and value apart. `source` names the place that asks for it in messages.
+void set_value(YAML::Node& tree, const std::string& key_path, const YAML::Node& value, const std::string& source);
+
+/// What stands at a key path, as a handle to the tree's own node; none where nothing does.
+std::optional<YAML::Node> find_value(const YAML::Node& tree, const std::string& key_path);
 
 /// Checks the tree against the schema (CONTRACTS.md "Scene") and scales it.
 /// `source` names the file (or parameter namespace) in messages and, without its folder and ending, a scene that has no
@@ -47,7 +54,7 @@ void apply_setting(YAML::Node& tree, const std::string& assignment);
 /// solver.tolerance or solver.accuracy goes with event, implicit, auto; solver.step with rk4, semi_implicit, ode.
 Scene load_scene(const YAML::Node& tree, const std::string& source);
 
-/// read_scene_file + settings + load_scene.
+/// read_yaml_file + settings + load_scene.
 Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings = {});
 
 }  // namespace vibratory_alignment

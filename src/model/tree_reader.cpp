@@ -1,18 +1,19 @@
 #include "model/tree_reader.h"
 
+#include <locale.h>  // POSIX: newlocale
+#include <stdlib.h>  // POSIX: strtod_l
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <numeric>
-#include <sstream>
 
 namespace vibratory_alignment {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t longest_echo = 60, longest_line = 100;
+constexpr std::size_t longest_echo = 60, longest_line = 100, longest_text = 1000;
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
@@ -29,6 +30,23 @@ std::string echo(const YAML::Node& node) {
   if (node.IsMap()) return "(a map)";
   if (node.IsSequence()) return "(a list)";
   return node.Scalar().empty() ? "(empty text)" : echo(node.Scalar());
+}
+
+/// The node's text with single blanks between its words; none when it is empty, too long or holds other control
+/// characters than those between words.
+std::optional<std::string> text_of(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Scalar().size() > longest_text) return std::nullopt;
+  std::string text;
+  for (const char c : node.Scalar()) {
+    const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+    if (is_control(c) && !blank) return std::nullopt;
+    if (!blank)
+      text += c;
+    else if (!text.empty() && text.back() != ' ')
+      text += ' ';
+  }
+  if (!text.empty() && text.back() == ' ') text.pop_back();
+  return text.empty() ? std::nullopt : std::optional(text);
 }
 
 std::string join(const std::vector<std::string>& words, const std::string& last_separator) {
@@ -112,11 +130,8 @@ const NumberRule positive_whole_number = {"a whole number from 1 to 1e15", 1.0, 
 
 std::optional<double> parse_number(const std::string& text) {
   if (!is_number_text(text)) return std::nullopt;
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double value = 0.0;
-  stream >> value;
-  if (stream.fail()) return std::copysign(infinity, value);
+  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
+  const double value = strtod_l(text.c_str(), nullptr, classic);
   // A size that rounds to 0 is not 0.
   const bool is_zero = text.find_first_of("123456789") >= text.find_first_of("eE");
   return value == 0.0 && !is_zero ? std::numeric_limits<double>::denorm_min() : value;
@@ -144,13 +159,15 @@ TreeReader::TreeReader(const YAML::Node& node, std::string path, Faults& faults)
   for (const auto& entry : node) {
     if (!entry.first.IsScalar())
       faults_->push_back(path_of(echo(entry.first)) + ": a key must be a name");
-    else if (!entries_.emplace(entry.first.Scalar(), entry.second).second)
+    else if (find(entry.first.Scalar()) != nullptr)
       fault(entry.first.Scalar(), "is given twice");
+    else
+      entries_.emplace_back(entry.first.Scalar(), entry.second);
   }
 }
 
 std::optional<double> TreeReader::number(const std::string& key, const NumberRule& rule, const std::string& unit) {
-  const YAML::Node* node = find(key);
+  const YAML::Node* node = value(key);
   if (!node) return std::nullopt;
   const std::optional<double> value = node->IsScalar() ? parse_number(node->Scalar()) : std::nullopt;
   if (!value || !rule.allows(*value)) {
@@ -170,7 +187,7 @@ double TreeReader::required_number(const std::string& key, const NumberRule& rul
 }
 
 std::optional<bool> TreeReader::flag(const std::string& key) {
-  const YAML::Node* node = find(key);
+  const YAML::Node* node = value(key);
   if (!node) return std::nullopt;
   std::string word = node->IsScalar() ? node->Scalar() : "";
   std::transform(word.begin(), word.end(), word.begin(),
@@ -182,7 +199,7 @@ std::optional<bool> TreeReader::flag(const std::string& key) {
 }
 
 std::optional<std::string> TreeReader::line(const std::string& key) {
-  const YAML::Node* node = find(key);
+  const YAML::Node* node = value(key);
   if (!node) return std::nullopt;
   const std::string text = node->IsScalar() ? node->Scalar() : "";
   if (!text.empty() && text.size() <= longest_line && std::none_of(text.begin(), text.end(), is_control)) return text;
@@ -190,8 +207,31 @@ std::optional<std::string> TreeReader::line(const std::string& key) {
   return std::nullopt;
 }
 
+std::optional<std::string> TreeReader::text(const std::string& key) {
+  const YAML::Node* node = value(key);
+  if (!node) return std::nullopt;
+  const std::optional<std::string> text = text_of(*node);
+  if (!text) fault(key, "must be text, of 1 to " + std::to_string(longest_text) + " bytes");
+  return text;
+}
+
+std::vector<std::string> TreeReader::texts(const std::string& key) {
+  const YAML::Node* node = value(key);
+  std::vector<std::string> texts;
+  if (!node) return texts;
+  const std::size_t count = node->IsSequence() ? node->size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<std::string> text = text_of(node->IsSequence() ? (*node)[i] : *node);
+    if (text)
+      texts.push_back(*text);
+    else
+      fault(key, "must be text or a list of texts, of 1 to " + std::to_string(longest_text) + " bytes each");
+  }
+  return texts;
+}
+
 std::optional<std::size_t> TreeReader::choice(const std::string& key, const std::vector<std::string>& words) {
-  const YAML::Node* node = find(key);
+  const YAML::Node* node = value(key);
   if (!node) return std::nullopt;
   const std::optional<std::size_t> index = node->IsScalar() ? index_of(node->Scalar(), words) : std::nullopt;
   if (!index) fault(key, "must be " + alternatives(words));
@@ -199,7 +239,7 @@ std::optional<std::size_t> TreeReader::choice(const std::string& key, const std:
 }
 
 std::vector<std::size_t> TreeReader::choices(const std::string& key, const std::vector<std::string>& words) {
-  const YAML::Node* list = find(key);
+  const YAML::Node* list = value(key);
   if (!list || !list->IsSequence() || list->size() == 0) {
     fault(key, "must be a list of at least one of " + alternatives(words));
     return {};
@@ -220,14 +260,14 @@ std::vector<std::size_t> TreeReader::choices(const std::string& key, const std::
 }
 
 TreeReader TreeReader::section(const std::string& key) {
-  const YAML::Node* node = find(key);
+  const YAML::Node* node = value(key);
   TreeReader below(node ? *node : YAML::Node(YAML::NodeType::Map), path_of(key), *faults_);
   below.is_map_ = below.is_map_ && is_map_;
   return below;
 }
 
 std::vector<TreeReader> TreeReader::sections(const std::string& key) {
-  const YAML::Node* node = find(key);
+  const YAML::Node* node = value(key);
   if (!node || !node->IsSequence()) return {section(key)};
   if (node->size() == 0) fault(key, "must be a map or a list of at least one map");
   std::vector<TreeReader> below;
@@ -237,15 +277,15 @@ std::vector<TreeReader> TreeReader::sections(const std::string& key) {
 }
 
 void TreeReader::refuse(const std::string& key, const std::string& reason) {
-  if (entries_.count(key) != 0) fault(key, reason);
+  if (find(key) != nullptr) fault(key, reason);
   ignore(key);
 }
 
 void TreeReader::fault(const std::string& key, const std::string& what) {
   // What is wrong with something that is no map has been said.
   if (!is_map_) return;
-  const auto entry = entries_.find(key);
-  const std::string value = entry == entries_.end() ? "missing" : echo(entry->second);
+  const Entry* entry = find(key);
+  const std::string value = entry == nullptr ? "missing" : echo(entry->second);
   faults_->push_back(path_of(key) + ": " + value + ": " + what);
 }
 
@@ -257,10 +297,25 @@ void TreeReader::refuse_unknown_keys() {
   }
 }
 
-const YAML::Node* TreeReader::find(const std::string& key) {
+const YAML::Node* TreeReader::value(const std::string& key) {
   if (!index_of(key, known_)) known_.push_back(key);
-  const auto entry = entries_.find(key);
-  return entry == entries_.end() ? nullptr : &entry->second;
+  const Entry* entry = find(key);
+  return entry == nullptr ? nullptr : &entry->second;
+}
+
+std::vector<std::string> TreeReader::keys() {
+  for (const Entry& entry : entries_) known_.push_back(entry.first);
+  return known_;
+}
+
+void TreeReader::ignore(const std::string& key) {
+  entries_.remove_if([&](const Entry& entry) { return entry.first == key; });
+}
+
+const TreeReader::Entry* TreeReader::find(const std::string& key) const {
+  for (const Entry& entry : entries_)
+    if (entry.first == key) return &entry;
+  return nullptr;
 }
 
 std::string TreeReader::path_of(const std::string& key) const {

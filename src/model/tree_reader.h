@@ -9,7 +9,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <map>
+#include <list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,7 +47,13 @@ class TreeReader {
   /// `path` is empty for the root. Anything but a map is a fault; no further ones come from reading it.
   TreeReader(const YAML::Node& node, std::string path, Faults& faults);
 
-  bool has(const std::string& key) { return find(key) != nullptr; }
+  bool has(const std::string& key) { return value(key) != nullptr; }
+
+  /// What stands at the key, unread; null if nothing does.
+  const YAML::Node* value(const std::string& key);
+
+  /// The keys of a map whose keys are not known beforehand, in the order of the file.
+  std::vector<std::string> keys();
 
   /// `unit` is for the message: "must be a number > 0 [kg]".
   std::optional<double> number(const std::string& key, const NumberRule& rule, const std::string& unit = "");
@@ -58,6 +64,12 @@ class TreeReader {
 
   /// One printable line of at most 100 bytes.
   std::optional<std::string> line(const std::string& key);
+
+  /// Printable text of at most 1000 bytes; what YAML folds or breaks into lines comes as one, with single blanks.
+  std::optional<std::string> text(const std::string& key);
+
+  /// A list of texts, or one text alone; absent: none.
+  std::vector<std::string> texts(const std::string& key);
 
   /// One of the words: its index.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& words);
@@ -75,7 +87,7 @@ class TreeReader {
   void refuse(const std::string& key, const std::string& reason);
 
   /// The key is neither read nor unknown.
-  void ignore(const std::string& key) { entries_.erase(key); }
+  void ignore(const std::string& key);
 
   /// A fault that the caller found at the key (given or not).
   void fault(const std::string& key, const std::string& what);
@@ -84,13 +96,15 @@ class TreeReader {
   void refuse_unknown_keys();
 
  private:
-  const YAML::Node* find(const std::string& key);
+  using Entry = std::pair<std::string, YAML::Node>;
+
+  const Entry* find(const std::string& key) const;
   std::string path_of(const std::string& key) const;
 
   std::string path_;
   Faults* faults_;
   bool is_map_ = true;
-  std::map<std::string, YAML::Node> entries_;
+  std::list<Entry> entries_;  ///< no vector: a YAML::Node that is moved up by assignment changes the tree
   std::vector<std::string> known_;
 };
 

@@ -50,7 +50,9 @@ void ContactWatch::book_peaks(const Segment& segment) {
 void ContactWatch::book_touch(const Segment& segment, const Event& touch) {
   const double time = segment.end_time();
   if (time <= kStart) return;
-  ++impacts_[static_cast<std::size_t>(spot_of(touch.site))];
+  const auto spot = static_cast<std::size_t>(spot_of(touch.site));
+  ++impacts_[spot];
+  times_[spot] = {times_[spot] ? times_[spot]->first : time, time};
   if (first_) return;
   const ContactKinematics k = contact_kinematics(system_, segment.end, touch.site, touch.face);
   first_ = FirstContact{time, spot_of(touch.site), segment.end, k.depth_rate, k.slip_velocity};

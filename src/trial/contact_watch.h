@@ -25,6 +25,7 @@ class ContactWatch {
   long impacts(Spot spot) const { return impacts_[static_cast<std::size_t>(spot)]; }
   double peak_force(Spot spot) const { return peaks_[static_cast<std::size_t>(spot)]; }
   const std::optional<FirstContact>& first_contact() const { return first_; }
+  const std::optional<ImpactTimes>& impact_times(Spot spot) const { return times_[static_cast<std::size_t>(spot)]; }
   const std::vector<ModeChange>& mode_changes() const { return changes_; }
   Mode mode() const;
 
@@ -38,6 +39,7 @@ class ContactWatch {
   double period_;
   std::array<long, kSpotCount> impacts_{};
   std::array<double, kSpotCount> peaks_{};
+  std::array<std::optional<ImpactTimes>, kSpotCount> times_;
   std::optional<FirstContact> first_;
   std::vector<ModeChange> changes_;
   bool touching_ = false, ever_touched_ = false;

@@ -34,6 +34,11 @@ struct FirstContact {
   double slip_velocity = 0.0;   ///< V
 };
 
+/// Of the impacts at one spot.
+struct ImpactTimes {
+  double first = 0.0, last = 0.0;
+};
+
 /// From `time` on the motion is in `mode` (impact or nonimpact).
 struct ModeChange {
   double time = 0.0;
@@ -61,6 +66,7 @@ struct TrialResult {
   double final_time = 0.0;
   State final_state;
   std::array<long, kSpotCount> impacts{};
+  std::array<std::optional<ImpactTimes>, kSpotCount> impact_times;  ///< none: no impact there
   std::array<double, kSpotCount> peak_force{};
   bool force_limit_exceeded = false;
   std::optional<FirstContact> first_contact;

@@ -5,30 +5,9 @@
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/system.h"
+#include "trial/contact_impulse.h"
 
 namespace vibratory_alignment {
-namespace {
-
-/// World components of a contact's force as series.
-void force_series(const ContactFrame& frame, bool turning, const ContactSeries& contact, const Segment& segment,
-                  Series& fx, Series& fy) {
-  for (int k = 0; k <= segment.order; ++k) {
-    // components along the frame's own axes
-    const double f1 = frame.n1 * contact.normal_force[k] + frame.t1() * contact.tangential_force[k];
-    const double f2 = frame.n2 * contact.normal_force[k] + frame.t2() * contact.tangential_force[k];
-    fx[k] = f1;
-    fy[k] = f2;
-  }
-  if (!turning) return;
-  const Series f1 = fx, f2 = fy;
-  for (int k = 0; k <= segment.order; ++k) {
-    fx[k] = product_term(f1, segment.cos_phi, k) - product_term(f2, segment.sin_phi, k);
-    fy[k] = product_term(f1, segment.sin_phi, k) + product_term(f2, segment.cos_phi, k);
-  }
-}
-
-}  // namespace
-
 Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
     : simulation_(simulation),
       system_(make_system(simulation.scene())),
@@ -39,19 +18,15 @@ Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
 void Sampler::integrate_to(double local_time) {
   if (!(local_time > integrated_to_)) return;
   const Segment& segment = simulation_.segment();
-  Series fx{}, fy{};
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
-    const auto site = static_cast<std::size_t>(contact.site);
-    const Face face = segment.contacts[site].face;
-    ContactSample& pending = pending_[site];
-    force_series(contact_frame(system_, face), is_part_face(face), contact, segment, fx, fy);
-    const int order = segment.order;
-    pending.impulse_x += integral(fx, order, integrated_to_, local_time);
-    pending.impulse_y += integral(fy, order, integrated_to_, local_time);
-    pending.normal_impulse += integral(contact.normal_force, order, integrated_to_, local_time);
-    pending.peak_normal_force =
-        std::max(pending.peak_normal_force, largest_value(contact.normal_force, order, integrated_to_, local_time));
+    ContactSample& pending = pending_[static_cast<std::size_t>(contact.site)];
+    const ContactImpulse impulse = contact_impulse(system_, segment, i, integrated_to_, local_time);
+    pending.impulse_x += impulse.x;
+    pending.impulse_y += impulse.y;
+    pending.normal_impulse += impulse.normal;
+    pending.peak_normal_force = std::max(
+        pending.peak_normal_force, largest_value(contact.normal_force, segment.order, integrated_to_, local_time));
   }
   integrated_to_ = local_time;
 }

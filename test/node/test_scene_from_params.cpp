@@ -28,7 +28,7 @@ XmlRpcValue to_params(const YAML::Node& node) {
 }
 
 TEST(SceneFromParams, IsTheSceneOfTheFile) {
-  XmlRpcValue params = to_params(read_scene_file(small_scene::si_path));
+  XmlRpcValue params = to_params(read_yaml_file(small_scene::si_path));
   const Scene scene = load_scene(to_yaml(params), "/aligner/scene");
   const Scene expected = small_scene::load(small_scene::si_path);
   EXPECT_EQ(scene.name, expected.name);
@@ -56,7 +56,7 @@ TEST(SceneFromParams, TypesAreKept) {
 }
 
 TEST(SceneFromParams, AccuracyChoosesTheSolver) {
-  XmlRpcValue params = to_params(read_scene_file(small_scene::path));
+  XmlRpcValue params = to_params(read_yaml_file(small_scene::path));
   XmlRpcValue solver;
   solver["accuracy"] = 1e-6;
   params["solver"] = solver;
@@ -68,7 +68,7 @@ TEST(SceneFromParams, AccuracyChoosesTheSolver) {
 TEST(SceneFromParams, NanAndInfinityReachTheLoaderAndAreRefused) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            -std::numeric_limits<double>::infinity()}) {
-    XmlRpcValue params = to_params(read_scene_file(small_scene::path));
+    XmlRpcValue params = to_params(read_yaml_file(small_scene::path));
     params["part"]["half_width"] = bad;
     try {
       load_scene(to_yaml(params), "/aligner/scene");

@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""Draws the figures of `align reproduce` in the axes of the paper, as SVG and PNG.
+
+usage: plot_figures.py FOLDER
+
+FOLDER holds figures.json, which says what to draw, and a CSV file for each figure, as `align reproduce` writes them.
+"""
+
+import argparse
+import collections
+import csv
+import json
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+from matplotlib.colors import ListedColormap  # noqa: E402
+
+# Marks as well as colours tell the curves apart, also in grey and for those who see colours otherwise (Okabe and Ito).
+STYLES = (("#0072B2", "o"), ("#D55E00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#E69F00", "v"), ("#56B4E9", "X"))
+BLUE, ORANGE = "#0072B2", "#D55E00"
+
+# The paper's symbols.
+SYMBOLS = {
+    "duration": r"alignment duration $\tau$",
+    "gripper.pressing_force": r"$f_0$",
+    "gripper.stiffness.x": r"$k_x$",
+    "gripper.stiffness.phi": r"$k_\varphi$",
+    "excitation.frequency": r"$\nu$",
+    "excitation.amplitude": r"$A$",
+    "initial.x": r"$x_C|_{\tau=0}$",
+    "slot.clearance": r"$\delta$",
+}
+PANELS = {
+    "x": r"$x_C$",
+    "y": r"$y_C$",
+    "vx": r"$\dot x_C$",
+    "vy": r"$\dot y_C$",
+    "phi": r"$\varphi$",
+    "omega": r"$\dot\varphi$",
+    "n1": r"$n_1$",
+    "n2": r"$n_2$",
+}
+
+
+def symbol(column):
+    return SYMBOLS.get(column, column)
+
+
+def read_rows(path):
+    """Rows of a CSV file as dictionaries of numbers; what is empty is NaN."""
+    with open(path, newline="") as file:
+        return [{key: float(text or "nan") for key, text in row.items()} for row in csv.DictReader(file)]
+
+
+def tidy(axes):
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def draw_motion(figure, rows):
+    """The panels a, b, ... of a trial; the last one spans the sheet, the forces."""
+    panels = figure["panels"]
+    lines = (len(panels) + 1) // 2
+    sheet = plt.figure(figsize=(7.2, 1.75 * lines + 0.4), layout="constrained")
+    grid = sheet.add_gridspec(lines, 2)
+    time = [row["t"] for row in rows]
+    for number, columns in enumerate(panels):
+        wide = number == len(panels) - 1 and len(panels) % 2 == 1
+        axes = sheet.add_subplot(grid[number // 2, :] if wide else grid[number // 2, number % 2])
+        for column, colour in zip(columns, (BLUE, ORANGE)):
+            axes.plot(time, [row[column] for row in rows], color=colour, linewidth=0.9, label=PANELS[column])
+        axes.set_ylabel(", ".join(PANELS[column] for column in columns))
+        axes.set_title("%s)" % "abcdefg"[number], loc="left", fontsize=9)
+        axes.set_xlim(0.0, time[-1])
+        if columns[0].startswith("n"):
+            axes.set_ylim(bottom=0.0)
+        if len(columns) > 1:
+            axes.legend(frameon=False, ncol=2, fontsize=8, loc="upper right")
+        axes.set_xlabel(r"$\tau$", labelpad=1)
+        tidy(axes)
+    return sheet
+
+
+def draw_curves(figure, rows):
+    """Medians with their quartiles; hollow where impact mode does not prevail; nothing where too few samples align."""
+    curves = collections.OrderedDict()
+    for row in rows:
+        curves.setdefault(tuple(row[key] for key in figure["each"]), []).append(row)
+    sheet, axes = plt.subplots(figsize=(6.0, 4.0), layout="constrained")
+    along = figure["along"]
+    steps = sorted({row[along] for row in rows})
+    shift = 0.12 * (steps[-1] - steps[0]) / max(1, len(steps) - 1)
+    for number, (key, points) in enumerate(curves.items()):
+        colour, mark = STYLES[number % len(STYLES)]
+        offset = shift * (number - 0.5 * (len(curves) - 1))
+        at = [row[along] + offset for row in points]
+        value = [row["median"] for row in points]
+        label = ", ".join("%s = %g" % (symbol(name), part) for name, part in zip(figure["each"], key))
+        axes.plot(at, value, color=colour, linewidth=1.0, label=label, marker=mark, markersize=4.5,
+                  markerfacecolor="white", zorder=3)
+        marked = [(a, v) for a, v, row in zip(at, value, points) if row["mark"] >= figure["share"]]
+        if marked:
+            axes.plot(*zip(*marked), color=colour, linestyle="none", marker=mark, markersize=4.5, zorder=4)
+        bars = [[v - row["low"] for v, row in zip(value, points)], [row["high"] - v for v, row in zip(value, points)]]
+        axes.errorbar(at, value, yerr=bars, color=colour, linestyle="none", elinewidth=0.8, capsize=1.8, zorder=2)
+    axes.set_xlabel(symbol(along))
+    axes.set_ylabel(symbol(figure["of"]))
+    axes.set_ylim(bottom=0.0)
+    axes.set_title("medians and quartiles; filled: impact mode prevails", fontsize=9)
+    tidy(axes)
+    axes.legend(frameon=False, fontsize=9, ncol=len(curves) if len(curves) < 4 else 2)
+    return sheet
+
+
+def edges(values):
+    """Borders of the cells around the points of an axis."""
+    inner = [0.5 * (a + b) for a, b in zip(values, values[1:])]
+    return [2 * values[0] - inner[0]] + inner + [2 * values[-1] - inner[-1]]
+
+
+def draw_region(figure, rows):
+    """The plane of two values: hatched where alignment is not reliable, as in the paper."""
+    x, y = figure["x"], figure["y"]
+    xs, ys = sorted({row[x] for row in rows}), sorted({row[y] for row in rows})
+    share = {(row[x], row[y]): row["share"] for row in rows}
+    field = [[share[a, b] for a in xs] for b in ys]
+    sheet, axes = plt.subplots(figsize=(6.0, 4.4), layout="constrained")
+    shade = axes.pcolormesh(edges(xs), edges(ys), field, cmap="Blues", vmin=0.0, vmax=1.0, alpha=0.55, rasterized=True)
+    unreliable = [[0.0 if value >= figure["share"] else 1.0 for value in line] for line in field]
+    nothing = ListedColormap([(0, 0, 0, 0)])
+    hatch = axes.pcolor(edges(xs), edges(ys), [[v if v else float("nan") for v in line] for line in unreliable],
+                        cmap=nothing, edgecolor="none", hatch="////", linewidth=0.0)
+    hatch.set_edgecolor("0.35")
+    hatch.set_linewidth(0.0)
+    outline(axes, xs, ys, unreliable)
+    axes.set_xlabel(symbol(x))
+    axes.set_ylabel(symbol(y))
+    bar = sheet.colorbar(shade, ax=axes)
+    bar.set_label("share of trials that align in impact mode")
+    axes.set_title("not hatched: at least %g %%" % (100 * figure["share"]), fontsize=9)
+    return sheet
+
+
+def outline(axes, xs, ys, unreliable):
+    """The border of the region, along the borders of its cells."""
+    right, up = edges(xs), edges(ys)
+    for j in range(len(ys)):
+        for i in range(len(xs)):
+            if i > 0 and unreliable[j][i] != unreliable[j][i - 1]:
+                axes.plot([right[i]] * 2, up[j:j + 2], color="black", linewidth=1.2)
+            if j > 0 and unreliable[j][i] != unreliable[j - 1][i]:
+                axes.plot(right[i:i + 2], [up[j]] * 2, color="black", linewidth=1.2)
+
+
+DRAW = {"motion": draw_motion, "curves": draw_curves, "region": draw_region}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     usage=argparse.SUPPRESS)
+    parser.add_argument("folder", type=pathlib.Path)
+    folder = parser.parse_args().folder
+    plt.rcParams.update({"font.size": 10, "mathtext.fontset": "cm", "svg.hashsalt": "figures", "hatch.linewidth": 0.6})
+    try:
+        for figure in json.loads((folder / "figures.json").read_text()):
+            sheet = DRAW[figure["kind"]](figure, read_rows(folder / (figure["name"] + ".csv")))
+            sheet.suptitle(figure["title"], fontsize=11)
+            sheet.savefig(folder / (figure["name"] + ".svg"), metadata={"Date": None})
+            sheet.savefig(folder / (figure["name"] + ".png"), dpi=150)
+            plt.close(sheet)
+    except (OSError, KeyError, ValueError) as error:
+        sys.exit("plot_figures.py: %s: %s" % (folder, error))
+
+
+if __name__ == "__main__":
+    main()

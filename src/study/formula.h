@@ -1,0 +1,23 @@
+// Formulas over the columns of a table, as a facts file has them: "aligned && last_impact.a1 < 0.5 * end_time".
+// muParser's language: + - * / ^, comparisons, && || and ?:, functions such as abs, min, max, sin, cos.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "study/table.h"
+
+namespace vibratory_alignment {
+
+/// what() quotes the formula and says what is wrong with it, and where.
+class FormulaError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The value of the formula in each row. A comparison with NaN is false, arithmetic with NaN is NaN.
+/// Throws FormulaError when it is not a formula, or asks for a column that there is none.
+std::vector<double> evaluate_formula(const std::string& formula, const Table& table);
+
+}  // namespace vibratory_alignment

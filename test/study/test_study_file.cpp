@@ -1,0 +1,118 @@
+// A study's file: what is read, and that every fault is refused with key path, value and what is allowed.
+#include "study/study_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "model/scene_loader.h"
+#include "study/design.h"
+#include "study_text.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::study_of;
+
+std::vector<std::string> faults_of(const std::string& text) {
+  try {
+    study_of(text);
+  } catch (const SceneError& error) {
+    return error.faults();
+  }
+  return {};
+}
+
+TEST(StudyFile, NameAndScene) {
+  EXPECT_EQ(study_of("").name, "study");
+  EXPECT_EQ(study_of("study: map").name, "map");
+  EXPECT_EQ(trial_count(study_of("")), 1u);
+  // a scene that comes with the package
+  const test::Folder folder;
+  const auto find = [](const std::string& name) { return std::string(SCENE_DIR) + "/" + name + ".yaml"; };
+  const Study study = load_study(folder.write("s.yaml", "scene: fig2\nvary: {initial.x: [0.2, 0.3]}"), find);
+  EXPECT_EQ(study.scene_source, std::string(SCENE_DIR) + "/fig2.yaml");
+}
+
+TEST(StudyFile, SamplesHaveDefaults) {
+  const Study study = study_of("vary: {initial.x: {from: 0.2, to: 0.3}}\nsamples: {count: 8}");
+  ASSERT_TRUE(study.samples);
+  EXPECT_EQ(study.samples->method, SampleMethod::sobol);
+  EXPECT_EQ(study.samples->seed, 0u);
+  EXPECT_EQ(trial_count(study), 8u);
+}
+
+struct Fault {
+  const char* text;   ///< of the study
+  const char* place;  ///< how the fault begins
+  const char* words;  ///< what else it says
+};
+
+TEST(StudyFile, FaultsAreRefusedAtTheirPlace) {
+  const Fault cases[] = {
+      {"varry: {initial.x: [1]}", "varry: ", "did you mean vary?"},
+      {"vary: {initial.x: 0.3}", "vary.initial.x: 0.3: ", "a list of values, or a range"},
+      {"vary: {initial.x: []}", "vary.initial.x: ", "a list of values"},
+      {"vary: [{initial.x: [0.2, 0.3], initial.phi: [0]}]", "vary.0.initial.phi: ", "equally many"},
+      {"vary: [{initial.x: [0.2], initial.phi: {from: 0, to: 1}}]\nsamples: {count: 2}", "vary.0.initial.phi: ", "sampled"},
+      {"vary: {initial.x: {from: 0, count: 3}}", "vary.initial.x.to: missing", "a number"},
+      {"vary: {initial.x: {from: 0, to: 1, count: 1}}", "vary.initial.x.count: 1: ", "from 2"},
+      {"vary: {initial.x: {from: 0, to: 1, count: 2.5}}", "vary.initial.x.count: 2.5: ", "whole"},
+      {"vary: {initial.x: {from: nan, to: 1, count: 2}}", "vary.initial.x.from: nan: ", "a number"},
+      {"vary: {initial.x: {from: 0, to: 1, count: 3, spacing: log}}", "vary.initial.x.from: 0: ", "> 0"},
+      {"vary: {initial.x: {from: 0, to: 1, count: 3, spacing: cubic}}", "vary.initial.x.spacing: cubic: ", "linear or log"},
+      {"vary: {initial.x: {from: 0, to: 1, count: 3, as: delta}}", "vary.initial.x.as: delta: ", "value or offset"},
+      {"vary: {initial.x: {from: 0, to: 1, coun: 3}}", "vary.initial.x.coun: ", "did you mean count?"},
+      {"vary: {initial.x: {from: 0, to: 1}}", "samples: missing", "count"},
+      {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {}", "samples.count: missing", "whole number"},
+      {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 0}", "samples.count: 0: ", "whole number"},
+      {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 4, method: halton}", "samples.method: halton: ", "sobol or random"},
+      {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 4, seed: -1}", "samples.seed: -1: ", "from 0"},
+      {"vary: {initial.x: [1]}\nsamples: {count: 4}", "samples: ", "nothing is sampled"},
+      {"vary: [{initial.x: [1]}, {initial.x: [2]}]", "vary.1.initial.x: ", "twice"},
+      {"vary: [{gripper.stiffness.phi: [1]}, {gripper.stiffness: [{phi: 2}]}]", "vary.1.gripper.stiffness: ", "part of"},
+      {"vary: []", "vary: ", "list of at least one"},
+      {"vary: [{}]", "vary: ", "must name a key"},
+      {"set: {initial.x.y: 3}", "set.initial.x.y: ", "neither a map nor a list"},
+      {"set: {nosuch: null}", "set.nosuch: ", "no such key"},
+      {"vary: [{initial.x: {from: 0, to: 1, count: 1000000000}}, {initial.phi: {from: 0, to: 1, count: 10000000}}]", "vary: ", "1e15"},
+  };
+  for (const Fault& c : cases) {
+    const std::vector<std::string> faults = faults_of(c.text);
+    ASSERT_EQ(faults.size(), 1u) << c.text << "\n" << (faults.size() > 1 ? faults[0] + "\n" + faults[1] : "");
+    EXPECT_EQ(faults[0].substr(0, std::string(c.place).size()), c.place) << faults[0];
+    EXPECT_NE(faults[0].find(c.words), std::string::npos) << faults[0];
+  }
+}
+
+TEST(StudyFile, AllFaultsAreToldAtOnce) {
+  EXPECT_EQ(faults_of("vary: [{initial.x: 3}, {initial.phi: {from: a, to: 1, count: 3}}]\nsample: {count: 3}").size(), 3u);
+}
+
+// A mistyped key would else give a study of refused trials.
+TEST(StudyFile, KeysThatNoSceneHasAreRefusedAtOnce) {
+  const std::vector<std::string> faults = faults_of("vary: {initial.z: [0.2, 0.3, 0.4]}");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].find("initial.z: 0.2: unknown key"), std::string::npos) << faults[0];
+}
+
+// Some points of a study may have no scene: that is for the sweep to say.
+TEST(StudyFile, SomeRefusedTrialsDoNoHarm) {
+  EXPECT_TRUE(faults_of("vary: {slot.clearance: {from: 0, to: 0.1, count: 3}}").empty());
+}
+
+TEST(StudyFile, OfNoSceneIsRefused) {
+  const test::Folder folder;
+  const auto none = [](const std::string& name) -> std::string { throw std::runtime_error(name + ": no such scene"); };
+  try {
+    load_study(folder.write("s.yaml", "scene: nosuch"), none);
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("s.yaml: scene: nosuch: no such scene"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(load_study(folder.write("s.yaml", "vary: {initial.x: [1]}"), none), SceneError);
+  EXPECT_THROW(load_study("/nosuch/study.yaml", none), SceneError);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment

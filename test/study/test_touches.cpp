@@ -1,0 +1,86 @@
+// Touches one by one: a ball whose impacts are known, and the sums that a trial's row keeps.
+#include "study/touches.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/scenes.h"
+#include "model/scene_loader.h"
+#include "study/trial_row.h"
+#include "study_text.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A ball on an undamped base, springs at ease at the height of touch, dropped from 0.3 above: it meets the base with
+// v = 0.3 after a quarter of its swing, is in it for half a swing of the frequency sqrt(k + 1) with the largest force
+// k v/sqrt(k + 1), and comes back after half a swing of its own.
+TEST(Touches, of_a_ball_are_known) {
+  constexpr double k = 1e4;
+  Scene scene = test::scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2",
+                                            "base={stiffness: {y: 1.0e4}}", "trial.time_limit=6"});
+  scene.solver.tolerance = 1e-12;
+  const std::vector<Touch> touches = touches_of(scene);
+  ASSERT_EQ(touches.size(), 2U);
+  const double contact = kPi / std::sqrt(k + 1.0);
+  for (const Touch& touch : touches) {
+    EXPECT_EQ(touch.spot, Spot::a1);
+    EXPECT_NEAR(touch.contact_time, contact, 1e-10);
+    EXPECT_NEAR(touch.peak_force, k * 0.3 / std::sqrt(k + 1.0), 1e-8);
+    EXPECT_NEAR(touch.normal_impulse, 2.0 * 0.3 * k / (k + 1.0), 1e-10);
+    EXPECT_EQ(touch.friction_impulse, 0.0);
+    EXPECT_NEAR(touch.state.vy, -0.3, 1e-10);
+  }
+  EXPECT_NEAR(touches[0].time, kPi / 2.0, 1e-12);
+  EXPECT_TRUE(std::isnan(touches[0].gap));
+  EXPECT_TRUE(std::isnan(touches[0].peak_before));
+  EXPECT_NEAR(touches[1].gap, kPi, 1e-10);
+  EXPECT_EQ(touches[1].peak_before, touches[0].peak_force);
+}
+
+TEST(Touches, add_up_to_the_row_of_the_trial) {
+  const Scene scene = load_scene_file(std::string(SCENE_DIR) + "/fig2.yaml");
+  const TrialRow row = run_trial_row(scene, 0);
+  TrialRow::Spots<long> count{};
+  TrialRow::Spots<double> normal{}, friction{}, peak{};
+  for (const Touch& touch : touches_of(scene)) {
+    const auto spot = static_cast<std::size_t>(touch.spot);
+    ++count[spot];
+    normal[spot] += touch.normal_impulse;
+    friction[spot] += touch.friction_impulse;
+    peak[spot] = std::max(peak[spot], touch.peak_force);
+  }
+  EXPECT_GT(count[0], 0);
+  for (std::size_t spot = 0; spot < kSpotCount; ++spot) {
+    EXPECT_EQ(count[spot], row.impacts[spot]);  // Fig. 2 starts above the base
+    EXPECT_EQ(peak[spot], row.peak_force[spot]);
+    EXPECT_NEAR(normal[spot], row.normal_impulse[spot], 1e-13);
+    EXPECT_NEAR(friction[spot], row.friction_impulse[spot], 1e-13);
+  }
+}
+
+TEST(TouchTable, has_the_values_of_the_trial_in_each_row) {
+  const Study study = test::study_of(R"(
+set: {trial.time_limit: 6, base.damping.y: 0}
+vary:
+  - initial.y: [1.2, 1.3]
+)",
+                                     test::ball + "\n");
+  const Table table = touch_table(study);
+  const std::vector<double>&y = *table.find("initial.y"), &a1 = *table.find("a1"), &b1 = *table.find("b1");
+  ASSERT_GE(table.rows(), 2U);
+  EXPECT_EQ(y.front(), 1.2);
+  EXPECT_EQ(y.back(), 1.3);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_EQ(a1[row], 1.0);
+    EXPECT_EQ(b1[row], 0.0);
+  }
+  EXPECT_EQ(touch_table(study, true).names, table.names);
+  EXPECT_EQ(touch_table(study, true).rows(), 0U);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment

@@ -1,0 +1,166 @@
+// What a study keeps of a trial: the result of the trial itself, and impulses and times of contact that obey Newton's laws.
+#include "study/trial_row.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/random_scenes.h"
+#include "../support/runs.h"
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using test::scene_of;
+
+TEST(TrialRow, IsTheResultOfTheTrial) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Scene scene = test::random_scene(seed);
+    scene.trial.time_limit = 5.0;
+    const TrialResult result = test::run(scene);
+    const TrialRow row = run_trial_row(scene, 7);
+    EXPECT_EQ(row.index, 7u);
+    EXPECT_EQ(row.outcome, result.outcome);
+    EXPECT_EQ(row.mode, result.mode);
+    EXPECT_EQ(row.end_time, result.final_time);
+    EXPECT_EQ(test::distance(row.end, result.final_state), 0.0);
+    EXPECT_EQ(row.impacts, result.impacts);
+    EXPECT_EQ(row.peak_force, result.peak_force);
+    EXPECT_EQ(std::isnan(row.duration), !result.aligned_time);
+    if (result.aligned_time) EXPECT_EQ(row.duration, *result.aligned_time);
+  }
+}
+
+// The touches among the events are the impacts, but for one that a trial starts in.
+TEST(TrialRow, FirstAndLastImpactAreTheTimesOfTheTouches) {
+  for (unsigned seed = 1; seed <= 25; ++seed) {
+    Scene scene = test::random_scene(seed);
+    scene.trial.time_limit = 5.0;
+    TrialRow::Spots<double> first{}, last{};
+    TrialRow::Spots<long> count{};
+    for (const test::TimedEvent& e : test::events_of(scene)) {
+      if (e.event.kind != EventKind::touch || e.time <= 1e-12) continue;
+      const auto spot = static_cast<std::size_t>(spot_of(e.event.site));
+      if (count[spot]++ == 0) first[spot] = e.time;
+      last[spot] = e.time;
+    }
+    const TrialRow row = run_trial_row(scene, 0);
+    EXPECT_EQ(row.impacts, count);
+    for (std::size_t spot = 0; spot < kSpotCount; ++spot) {
+      EXPECT_EQ(std::isnan(row.first_impact[spot]), count[spot] == 0);
+      EXPECT_EQ(std::isnan(row.last_impact[spot]), count[spot] == 0);
+      if (count[spot] == 0) continue;
+      EXPECT_EQ(row.first_impact[spot], first[spot]);
+      EXPECT_EQ(row.last_impact[spot], last[spot]);
+    }
+  }
+}
+
+// With no gripper along x the base alone moves the part sideways: its impulse is the momentum gained.
+TEST(TrialRow, ImpulseAlongXIsTheMomentumGained) {
+  const Scene scene = scene_of(test::plain, {"gripper.stiffness.x=0", "gripper.damping.x=0", "contacts=[edges, corners]"});
+  const TrialRow row = run_trial_row(scene, 0);
+  double sum = 0.0;
+  for (const double impulse : row.impulse_x) sum += impulse;
+  EXPECT_GT(std::abs(row.end.vx), 1e-3);
+  EXPECT_NEAR(sum, row.end.vx, 1e-12);
+}
+
+// A ball on an undamped base, springs at ease at the height of touch: an impact lasts half a swing of the frequency
+// sqrt(k + 1), turns the velocity v into -v and gives the impulse 2 v + (gripper: what acts meanwhile); the part of it
+// that the base gives is 2 v k/(k + 1).
+TEST(TrialRow, OneImpactHasTheImpulseAndTimeOfTheHalfSwing) {
+  for (const double k : {1e2, 1e4, 1e6}) {
+    Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "base={stiffness: {y: 1.0e4}}",
+                                        "trial.time_limit=3"});
+    scene.base.stiffness_x = scene.base.stiffness_y = k;
+    scene.solver.tolerance = 1e-12;
+    const TrialRow row = run_trial_row(scene, 0);
+    ASSERT_EQ(row.impacts[0], 1);
+    EXPECT_NEAR(row.first_impact[0], std::acos(0.0), 1e-12);
+    EXPECT_NEAR(row.contact_time[0], std::acos(-1.0) / std::sqrt(k + 1.0), 1e-10);
+    EXPECT_NEAR(row.normal_impulse[0], 2.0 * 0.3 * k / (k + 1.0), 1e-10);
+    EXPECT_EQ(row.normal_impulse[0], row.impulse_y[0]);
+    for (std::size_t spot = 1; spot < kSpotCount; ++spot) {
+      EXPECT_EQ(row.contact_time[spot], 0.0);
+      EXPECT_EQ(row.normal_impulse[spot], 0.0);
+    }
+  }
+}
+
+// A part that slides to the right without turning back: T = -f N all the time, so are the integrals.
+TEST(TrialRow, FrictionOfASlidingPartIsTheCoefficientTimesTheNormalImpulse) {
+  const Scene scene = scene_of(test::ball, {"gripper={stiffness: {x: 0}, anchor: {y: 0.6}}", "friction.coefficient=0.25",
+                                            "initial={x: 0.2, y: 1.0, vx: 1}", "trial.time_limit=1.2"});
+  const TrialRow row = run_trial_row(scene, 0);
+  EXPECT_GT(row.end.vx, 0.0);
+  EXPECT_GT(row.normal_impulse[0], 0.1);
+  EXPECT_NEAR(row.friction_impulse[0], -0.25 * row.normal_impulse[0], 1e-12);
+  EXPECT_NEAR(row.impulse_x[0], row.friction_impulse[0], 1e-12);
+}
+
+// Pressed with less than the excitation a ball bounces, with more it does not; what is in between changes over, and the
+// time in nonimpact mode is that between the changes.
+TEST(TrialRow, NonimpactTimeIsTheTimeInThatMode) {
+  const auto row_of = [](const std::string& force) {
+    return run_trial_row(scene_of(test::ball, {"gripper={pressing_force: " + force + "}", "initial={x: 0.2}",
+                                               "excitation={amplitude: 1, frequency: 10}"}), 0);
+  };
+  EXPECT_EQ(row_of("0.1").mode, Mode::impact);
+  EXPECT_EQ(row_of("0.1").nonimpact_time, 0.0);
+  EXPECT_EQ(row_of("3").mode, Mode::nonimpact);
+  EXPECT_EQ(row_of("3").nonimpact_time, row_of("3").end_time);
+  // comes to rest on the base: bounces first, then stays
+  const Scene resting = scene_of(test::ball, {"gripper={anchor: {y: 0.6}}", "trial.time_limit=20"});
+  const TrialResult result = test::run(resting);
+  ASSERT_EQ(result.mode_changes.size(), 2u);
+  EXPECT_NEAR(run_trial_row(resting, 0).nonimpact_time, result.final_time - result.mode_changes[1].time, 1e-15);
+}
+
+// The scene in SI units is the same motion: numbers differ by the units' sizes.
+TEST(TrialRow, IsInTheUnitsOfTheScene) {
+  const std::string si = R"(
+units: si
+part: {mass: 0.1, half_width: 2.0e-3, base_distance: 1.8e-3, inertia: 6.0e-8}
+slot: {clearance: 2.0e-4}
+gripper: {stiffness: {x: 60, y: 4000, phi: 0.1}, pressing_force: 1.6}
+base: {stiffness: {y: 3.0e+7}, damping: {y: 300}}
+contacts: [edges]
+excitation: {force: 8, frequency: 640}
+initial: {x: 4.0e-4}
+trial: {time_limit: 0.02}
+)";
+  const Scene scene = scene_of(si);
+  const TrialResult result = test::run(scene);
+  const TrialRow row = run_trial_row(scene, 0);
+  const double length = 8.0 / 4000.0, time = std::sqrt(0.1 / 4000.0);
+  ASSERT_GT(row.impacts[0], 0);
+  EXPECT_NEAR(row.end_time / (result.final_time * time), 1.0, 1e-14);
+  EXPECT_NEAR(row.end.x / (result.final_state.x * length), 1.0, 1e-14);
+  EXPECT_NEAR(row.end.vy / (result.final_state.vy * length / time), 1.0, 1e-14);
+  EXPECT_NEAR(row.peak_force[0] / (result.peak_force[0] * 8.0), 1.0, 1e-14);
+  EXPECT_NEAR(row.first_impact[0] / (result.impact_times[0]->first * time), 1.0, 1e-14);
+  // of the order of peak times duration, not of a dimensionless number
+  EXPECT_LT(row.normal_impulse[0], row.peak_force[0] * row.contact_time[0]);
+  EXPECT_GT(row.normal_impulse[0], 0.1 * row.peak_force[0] * row.contact_time[0]);
+}
+
+TEST(TrialRow, WithoutAStartIsRefused) {
+  // tilted by more than a right angle, nothing is touched from above: no pressing force can be set
+  const TrialRow row = run_trial_row(scene_of(test::plain, {"initial.x=40", "contacts=[edges]"}), 3);
+  EXPECT_TRUE(row.refused);
+  EXPECT_EQ(row.index, 3u);
+  EXPECT_STREQ(outcome_word(row), "refused");
+  EXPECT_FALSE(row.reason.empty());
+}
+
+TEST(TrialRow, OfATrialThatBreaksOffIsFailed) {
+  const TrialRow row = run_trial_row(scene_of(test::plain, {"solver.step_limit=3"}), 0);
+  EXPECT_FALSE(row.refused);
+  EXPECT_STREQ(outcome_word(row), "failed");
+  EXPECT_NE(row.reason.find("step"), std::string::npos) << row.reason;
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
