@@ -81,7 +81,12 @@ Study StudyReader::read() {
     TreeReader set = root_.section("set");
     for (const std::string& key : set.keys()) settings_.emplace_back(key, *set.value(key));
   }
-  if (root_.has("vary")) {
+  const YAML::Node* vary = root_.value("vary");
+  if (vary != nullptr && vary->IsMap() && vary->size() > 1) {
+    root_.fault("vary",
+                "must be a list: `- KEY: ...` for each key that changes by itself, `- {KEY: ..., KEY: ...}` for "
+                "keys that change together");
+  } else if (vary != nullptr) {
     for (TreeReader& entry : root_.sections("vary")) study_.dimensions.push_back(read_dimension(entry));
     for (const Dimension& dimension : study_.dimensions)
       if (dimension.keys.empty() && faults_.empty()) root_.fault("vary", "every entry must name a key");
@@ -112,7 +117,9 @@ Dimension StudyReader::read_dimension(TreeReader& entry) {
     if (dimension.keys.empty())
       dimension.count = count;
     else if (count != dimension.count && faults_.size() == faults_before)
-      entry.fault(path, "keys that change together must have equally many values, or all be sampled (no `count`)");
+      entry.fault(
+          path,
+          "keys of one entry change together: they must have equally many values, or all be sampled (no `count`)");
     dimension.keys.push_back(key);
     varied_.push_back(key);
   }
