@@ -59,7 +59,6 @@ class StudyReader {
 
  private:
   Dimension read_dimension(TreeReader& entry);
-  void read_list(const YAML::Node& list, VariedKey& key);
   std::size_t read_range(TreeReader range, VariedKey& key);
   void refuse_overlap(TreeReader& entry, const VariedKey& key);
   void read_samples();
@@ -106,7 +105,7 @@ Dimension StudyReader::read_dimension(TreeReader& entry) {
     std::size_t count = 1;
     const std::size_t faults_before = faults_.size();
     if (node.IsSequence() && node.size() > 0) {
-      read_list(node, key);
+      for (const auto& value : node) key.values.push_back(text_of(value));
       count = key.values.size();
     } else if (node.IsMap()) {
       count = read_range(entry.section(path), key);
@@ -124,10 +123,6 @@ Dimension StudyReader::read_dimension(TreeReader& entry) {
     varied_.push_back(key);
   }
   return dimension;
-}
-
-void StudyReader::read_list(const YAML::Node& list, VariedKey& key) {
-  for (const auto& value : list) key.values.push_back(text_of(value));
 }
 
 /// Returns the count, 0 for a range that is sampled; something if it is faulty.
