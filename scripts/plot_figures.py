@@ -102,6 +102,8 @@ def draw_curves(figure, rows):
         at = [row[along] + offset for row in points]
         value = [row["median"] for row in points]
         label = ", ".join("%s = %g" % (symbol(name), part) for name, part in zip(figure["each"], key))
+        if all(v != v for v in value):
+            label += " (too few align)"
         axes.plot(at, value, color=colour, linewidth=1.0, label=label, marker=mark, markersize=4.5,
                   markerfacecolor="white", zorder=3)
         marked = [(a, v) for a, v, row in zip(at, value, points) if row["mark"] >= figure["share"]]
