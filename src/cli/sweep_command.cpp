@@ -68,7 +68,7 @@ Study load(const Options& options) {
   }
 }
 
-/// "3h 02m", "4m 10s", "12s"
+/// "3h 02m", "4m 10s", "12s", "0.35s"
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long>(std::min(seconds, 1e9) + 0.5);
   char text[40];
@@ -76,8 +76,10 @@ std::string duration_text(double seconds) {
     std::snprintf(text, sizeof text, "%ldh %02ldm", whole / 3600, whole / 60 % 60);
   else if (whole >= 60)
     std::snprintf(text, sizeof text, "%ldm %02lds", whole / 60, whole % 60);
-  else
+  else if (seconds >= 10.0)
     std::snprintf(text, sizeof text, "%lds", whole);
+  else
+    std::snprintf(text, sizeof text, "%.2gs", seconds);
   return text;
 }
 

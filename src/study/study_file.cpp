@@ -59,7 +59,6 @@ class StudyReader {
 
  private:
   Dimension read_dimension(TreeReader& entry);
-  void read_list(const YAML::Node& list, VariedKey& key);
   std::size_t read_range(TreeReader range, VariedKey& key);
   void refuse_overlap(TreeReader& entry, const VariedKey& key);
   void read_samples();
@@ -81,7 +80,12 @@ Study StudyReader::read() {
     TreeReader set = root_.section("set");
     for (const std::string& key : set.keys()) settings_.emplace_back(key, *set.value(key));
   }
-  if (root_.has("vary")) {
+  const YAML::Node* vary = root_.value("vary");
+  if (vary != nullptr && vary->IsMap() && vary->size() > 1) {
+    root_.fault("vary",
+                "must be a list: `- KEY: ...` for each key that changes by itself, `- {KEY: ..., KEY: ...}` for "
+                "keys that change together");
+  } else if (vary != nullptr) {
     for (TreeReader& entry : root_.sections("vary")) study_.dimensions.push_back(read_dimension(entry));
     for (const Dimension& dimension : study_.dimensions)
       if (dimension.keys.empty() && faults_.empty()) root_.fault("vary", "every entry must name a key");
@@ -101,7 +105,7 @@ Dimension StudyReader::read_dimension(TreeReader& entry) {
     std::size_t count = 1;
     const std::size_t faults_before = faults_.size();
     if (node.IsSequence() && node.size() > 0) {
-      read_list(node, key);
+      for (const auto& value : node) key.values.push_back(text_of(value));
       count = key.values.size();
     } else if (node.IsMap()) {
       count = read_range(entry.section(path), key);
@@ -112,15 +116,13 @@ Dimension StudyReader::read_dimension(TreeReader& entry) {
     if (dimension.keys.empty())
       dimension.count = count;
     else if (count != dimension.count && faults_.size() == faults_before)
-      entry.fault(path, "keys that change together must have equally many values, or all be sampled (no `count`)");
+      entry.fault(
+          path,
+          "keys of one entry change together: they must have equally many values, or all be sampled (no `count`)");
     dimension.keys.push_back(key);
     varied_.push_back(key);
   }
   return dimension;
-}
-
-void StudyReader::read_list(const YAML::Node& list, VariedKey& key) {
-  for (const auto& value : list) key.values.push_back(text_of(value));
 }
 
 /// Returns the count, 0 for a range that is sampled; something if it is faulty.

@@ -90,14 +90,16 @@ TrialRow run(const Scene& scene, const std::atomic<bool>* stop) {
   return row_of(simulation.result(), totals, output_units(scene));
 }
 
-/// All faults in one line, without the file, which is the same for all trials.
+/// All faults, without the file, which is the same for all trials.
 std::string reason_of(const std::exception& error) {
+  const auto* refusal = dynamic_cast<const SceneError*>(&error);
+  if (refusal == nullptr) return error.what();
   std::string text;
-  if (const auto* refusal = dynamic_cast<const SceneError*>(&error)) {
-    for (const std::string& fault : refusal->faults()) text += (text.empty() ? "" : "; ") + fault;
-  } else {
-    text = error.what();
-  }
+  for (const std::string& fault : refusal->faults()) text += (text.empty() ? "" : "; ") + fault;
+  return text;
+}
+
+std::string on_one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
@@ -119,6 +121,7 @@ TrialRow run_trial_row(const Scene& scene, std::size_t index, const std::atomic<
     row.reason = reason_of(error);
   }
   row.index = index;
+  row.reason = on_one_line(row.reason);
   return row;
 }
 
@@ -126,7 +129,7 @@ TrialRow refused_row(std::size_t index, const std::exception& error) {
   TrialRow row;
   row.index = index;
   row.refused = true;
-  row.reason = reason_of(error);
+  row.reason = on_one_line(reason_of(error));
   return row;
 }
 

@@ -71,6 +71,7 @@ TEST(Grid, WordsListsMapsAndNullAreValuesToo) {
   const Study lines = study_of("vary:\n  - contacts:\n    - - edges\n      - corners\n  - friction:\n    -\n      coefficient: 0.3\n");
   EXPECT_EQ(values_at(lines, 0)[0].text, "[edges, corners]");
   EXPECT_EQ(values_at(lines, 0)[1].text, "{coefficient: 0.3}");
+  EXPECT_EQ(values_at(study_of("vary: {name: [short, \"of two\\nlines\"]}"), 1)[0].text.find('\n'), std::string::npos);
   const std::vector<VariedValue> last = values_at(study, 7);
   EXPECT_EQ(last[0].text, "implicit");
   EXPECT_EQ(YAML::Load(last[1].text)[1].Scalar(), "corners");

@@ -71,6 +71,7 @@ TEST(StudyFile, FaultsAreRefusedAtTheirPlace) {
       {"vary: {initial.x: [1]}\nsamples: {count: 4}", "samples: ", "nothing is sampled"},
       {"vary: [{initial.x: [1]}, {initial.x: [2]}]", "vary.1.initial.x: ", "twice"},
       {"vary: [{gripper.stiffness.phi: [1]}, {gripper.stiffness: [{phi: 2}]}]", "vary.1.gripper.stiffness: ", "part of"},
+      {"vary: {initial.x: [1, 2], initial.phi: [0, 1]}", "vary: ", "must be a list"},
       {"vary: []", "vary: ", "list of at least one"},
       {"vary: [{}]", "vary: ", "must name a key"},
       {"set: {initial.x.y: 3}", "set.initial.x.y: ", "neither a map nor a list"},

@@ -97,6 +97,11 @@ TEST(TrialScenes, ARefusedOneDoesNotSpoilTheNext) {
   EXPECT_EQ(scenes.at(2).solver.name, "implicit");
   EXPECT_THROW(scenes.at(3), SceneError);
   EXPECT_EQ(scenes.at(6).slot.clearance, 0.2);
+  // one that cannot even be put into the tree: the scene has no weight that could be taken out
+  TrialScenes weights(study_of("vary: [{weight: [1, null]}]"));
+  EXPECT_EQ(weights.at(0).weight, 1.0);
+  EXPECT_THROW(weights.at(1), SceneError);
+  EXPECT_EQ(weights.at(0).weight, 1.0);
 }
 
 TEST(TrialScenes, ReachIntoLists) {
