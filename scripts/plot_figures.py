@@ -102,13 +102,18 @@ def draw_curves(figure, rows):
         at = [row[along] + offset for row in points]
         value = [row["median"] for row in points]
         label = ", ".join("%s = %g" % (symbol(name), part) for name, part in zip(figure["each"], key))
+        if all(v != v for v in value):
+            label += " (too few align)"
         axes.plot(at, value, color=colour, linewidth=1.0, label=label, marker=mark, markersize=4.5,
                   markerfacecolor="white", zorder=3)
         marked = [(a, v) for a, v, row in zip(at, value, points) if row["mark"] >= figure["share"]]
         if marked:
             axes.plot(*zip(*marked), color=colour, linestyle="none", marker=mark, markersize=4.5, zorder=4)
-        bars = [[v - row["low"] for v, row in zip(value, points)], [row["high"] - v for v, row in zip(value, points)]]
-        axes.errorbar(at, value, yerr=bars, color=colour, linestyle="none", elinewidth=0.8, capsize=1.8, zorder=2)
+        present = [(a, v, v - row["low"], row["high"] - v) for a, v, row in zip(at, value, points) if v == v]
+        if present:
+            places, middles, below, above = zip(*present)
+            axes.errorbar(places, middles, yerr=(below, above), color=colour, linestyle="none", elinewidth=0.8,
+                          capsize=1.8, zorder=2)
     axes.set_xlabel(symbol(along))
     axes.set_ylabel(symbol(figure["of"]))
     axes.set_ylim(bottom=0.0)

@@ -54,12 +54,21 @@ std::string count_text(const FactBook& book, const std::vector<FactResult>& resu
   return std::to_string(met) + " of " + std::to_string(book.facts.size()) + " facts met";
 }
 
-}  // namespace
-
-std::string verdict(const Fact& fact, const FactResult& result) {
-  const std::string word = result.met ? "met" : "missed";
-  return result.met == fact.expected ? word : word + ", which is not expected";
+/// Names of the facts that are met (or missed) and expected to be otherwise.
+std::vector<std::string> against_expectation(const FactBook& book, const std::vector<FactResult>& results, bool met) {
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (results[i].met == met && book.facts[i].expected != met) ids.push_back(book.facts[i].id);
+  return ids;
 }
+
+std::string list(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += " " + word;
+  return text;
+}
+
+}  // namespace
 
 std::string ledger_text(const FactBook& book, const std::vector<FactResult>& results) {
   std::string text;
@@ -83,6 +92,11 @@ std::string ledger_text(const FactBook& book, const std::vector<FactResult>& res
     }
   }
   text += "\n" + count_text(book, results) + "\n";
+  for (const bool met : {true, false}) {
+    const std::vector<std::string> ids = against_expectation(book, results, met);
+    if (!ids.empty())
+      text += (met ? "Met, though not expected:" : "Missed, though expected to be met:") + list(ids) + "\n";
+  }
   return text;
 }
 
@@ -132,11 +146,8 @@ std::string ledger_json(const FactBook& book, const std::vector<FactResult>& res
   return json({{"facts", facts}}).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::vector<std::string> unexpected_misses(const FactBook& book, const std::vector<FactResult>& results) {
-  std::vector<std::string> ids;
-  for (std::size_t i = 0; i < results.size(); ++i)
-    if (book.facts[i].expected && !results[i].met) ids.push_back(book.facts[i].id);
-  return ids;
+std::vector<std::string> missed_unexpectedly(const FactBook& book, const std::vector<FactResult>& results) {
+  return against_expectation(book, results, false);
 }
 
 }  // namespace vibratory_alignment

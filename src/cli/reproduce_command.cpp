@@ -147,7 +147,7 @@ int run_command(const Options& options) {
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;
   if (!std::cout) throw OutputError("stdout", "the ledger is lost");
 
-  const std::vector<std::string> missed = unexpected_misses(suite.book, results);
+  const std::vector<std::string> missed = missed_unexpectedly(suite.book, results);
   if (!options.check || missed.empty()) return kExitRan;
   std::string list;
   for (const std::string& id : missed) list += " " + id;

@@ -6,7 +6,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr char kBefore[] = "outcome,mode,duration,end_time,x,y,phi,vx,vy,omega";
+constexpr char kBefore[] = "outcome,mode,duration,end_time,nonimpact_time,x,y,phi,vx,vy,omega";
 
 struct SpotColumns {
   const char* name;
@@ -60,12 +60,13 @@ std::string row_text(const TrialRow& row, const std::vector<VariedValue>& values
   for (const VariedValue& value : values) line += ',' + cell(value.text);
   line += std::string(",") + outcome_word(row);
   if (row.refused) {
-    // mode, duration, end_time, six of the state, and what there is of every spot
-    line.append(9 + kSpotCount * (1 + std::size(kSpotColumns)), ',');
+    // mode, duration, end_time, nonimpact_time, six of the state, and what there is of every spot
+    line.append(10 + kSpotCount * (1 + std::size(kSpotColumns)), ',');
   } else {
     line += std::string(",") + to_string(row.mode);
     const State& end = row.end;
-    for (const double value : {row.duration, row.end_time, end.x, end.y, end.phi, end.vx, end.vy, end.omega})
+    for (const double value :
+         {row.duration, row.end_time, row.nonimpact_time, end.x, end.y, end.phi, end.vx, end.vy, end.omega})
       line += ',' + cell(value);
     for (const long impacts : row.impacts) line += ',' + std::to_string(impacts);
     for (const SpotColumns& columns : kSpotColumns)

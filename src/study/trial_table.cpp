@@ -30,12 +30,12 @@ constexpr TrialColumn kTrialColumns[] = {
     {"duration", [](const TrialRow& r) { return r.duration; }},
     {"end_time", [](const TrialRow& r) { return r.end_time; }},
     {"nonimpact_time", [](const TrialRow& r) { return r.nonimpact_time; }},
-    {"end.x", [](const TrialRow& r) { return r.end.x; }},
-    {"end.y", [](const TrialRow& r) { return r.end.y; }},
-    {"end.phi", [](const TrialRow& r) { return r.end.phi; }},
-    {"end.vx", [](const TrialRow& r) { return r.end.vx; }},
-    {"end.vy", [](const TrialRow& r) { return r.end.vy; }},
-    {"end.omega", [](const TrialRow& r) { return r.end.omega; }},
+    {"x", [](const TrialRow& r) { return r.end.x; }},
+    {"y", [](const TrialRow& r) { return r.end.y; }},
+    {"phi", [](const TrialRow& r) { return r.end.phi; }},
+    {"vx", [](const TrialRow& r) { return r.end.vx; }},
+    {"vy", [](const TrialRow& r) { return r.end.vy; }},
+    {"omega", [](const TrialRow& r) { return r.end.omega; }},
 };
 
 constexpr SpotColumn kSpotColumns[] = {
@@ -74,7 +74,7 @@ TrialTable::TrialTable(const Study& study) : study_(study) {
   for (const TrialColumn& column : kTrialColumns) table_.names.emplace_back(column.name);
   for (const SpotColumn& column : kSpotColumns)
     for (int spot = 0; spot < kSpotCount; ++spot)
-      table_.names.push_back(std::string(column.name) + "." + to_string(static_cast<Spot>(spot)));
+      table_.names.push_back(std::string(column.name) + "_" + to_string(static_cast<Spot>(spot)));
   table_.columns.resize(table_.names.size());
 }
 

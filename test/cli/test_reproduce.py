@@ -34,7 +34,7 @@ facts:
       - {name: share, study: small, of: impact, rows: {take: share}, at_least: 1, scale: 1}
 figures:
   - {name: motion, title: Motion, study: small}
-  - {name: curve, title: Curve, study: small, of: peak_force.a1, curves: {along: gripper.pressing_force}}
+  - {name: curve, title: Curve, study: small, of: peak_force_a1, curves: {along: gripper.pressing_force}}
 """
 
 

@@ -32,7 +32,7 @@ samples: {count: 9}
 std::string bits_of(const TrialRow& row) {
   std::string bits = std::to_string(row.index) + outcome_word(row) + row.reason + to_string(row.mode);
   const auto add = [&](const auto& value) { bits.append(reinterpret_cast<const char*>(&value), sizeof value); };
-  add(row.duration), add(row.end_time), add(row.end), add(row.impacts), add(row.first_impact), add(row.last_impact);
+  add(row.duration), add(row.end_time), add(row.nonimpact_time), add(row.end), add(row.impacts), add(row.first_impact), add(row.last_impact);
   add(row.peak_force), add(row.normal_impulse), add(row.friction_impulse), add(row.impulse_x), add(row.impulse_y);
   add(row.contact_time);
   return bits;
