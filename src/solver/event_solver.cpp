@@ -315,7 +315,7 @@ double EventSolver::direction_step(double step, double point_tolerance) {
 /// it, and when it is used up the series take over again.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
   double shortest = 0.0;
-  if (method_ == ContactMethod::automatic && counts_.steps == 1) {
+  if (method_ == ContactMethod::automatic && now_.value() == 0.0) {
     // a contact at the start does not come out of an impact: its ring may be small enough to be passed over
     series_step_ = series_contact_step(drives);
     shortest = kShortestFirst * series_step_;
@@ -327,18 +327,11 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     shortest = kShortestTrial * series_step_;
     stays_implicit_ = true;
   }
+  evaluations_before_ = counts_.rhs_evaluations;
   if (method_ == ContactMethod::implicit || stays_implicit_) {
-    const long before = counts_.rhs_evaluations;
     const double step = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
-    if (method_ == ContactMethod::automatic) {
-      const double cost = (any_in_layer(segment_.contacts) ? kLayerEvaluationCost : kEvaluationCost) *
-                          static_cast<double>(counts_.rhs_evaluations - before);
-      // a step cut short at the end says nothing
-      if (step < longest) credit_ = std::min(credit_ + step / series_step_ - cost, kMostCredit);
-      stays_implicit_ = step > 0.0 && credit_ > 0.0;
-      if (!stays_implicit_) series_steps_ = 0;
-    }
+    if (step == 0.0) settle_credit(0.0, longest);
     if (step > 0.0) {
       implicit_now_ = true;
       implicit_length_ = step;
@@ -346,10 +339,25 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
       return step;
     }
   }
-  series_step_ = series_contact_step(drives);
   ++series_steps_;
   credit_ = std::min(credit_ + kTrialShare, kMostCredit);
-  return series_step_;
+  return series_contact_step(drives);
+}
+
+/// What a step of the length `gone` has been worth, once its end is known: an event cuts it short, and the way to there
+/// is gone again. An implicit step pays with its credit, a series step counts in what such steps are worth.
+void EventSolver::settle_credit(double gone, double longest) {
+  if (method_ != ContactMethod::automatic || gone == longest) return;  // one cut short at the end says nothing
+  if (!stays_implicit_) {
+    const double weight = 1.0 / std::clamp(series_steps_, 1, kTrialAfter);
+    series_step_ += weight * (gone - series_step_);
+    return;
+  }
+  const double cost = (any_in_layer(segment_.contacts) ? kLayerEvaluationCost : kEvaluationCost) *
+                      static_cast<double>(counts_.rhs_evaluations - evaluations_before_);
+  credit_ = std::min(credit_ + gone / series_step_ - cost, kMostCredit);
+  stays_implicit_ = implicit_now_ && credit_ > 0.0;
+  if (!stays_implicit_) series_steps_ = 0;
 }
 
 const Segment& EventSolver::advance(double limit) {
@@ -442,6 +450,7 @@ const Segment& EventSolver::advance(double limit) {
         implicit_length_ = found.time;
     }
   }
+  if (contact) settle_credit(segment_.duration, end);
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
     fail("the step has become too short");

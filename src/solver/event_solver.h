@@ -34,6 +34,7 @@ class EventSolver final : public Solver {
   double series_contact_step(const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
+  void settle_credit(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
@@ -66,7 +67,8 @@ class EventSolver final : public Solver {
   bool stays_implicit_ = false;  ///< automatic: the next step in contact is an implicit one
   double credit_ = 0.0;          ///< automatic: series steps' worth that implicit steps may lose beside the series
   int series_steps_ = 0;         ///< automatic: series steps in this contact since the last implicit one
-  double series_step_ = 0.0;     ///< automatic: length of the last series step
+  double series_step_ = 0.0;     ///< automatic: what a series step goes, mean of the last kTrialAfter
+  long evaluations_before_ = 0;  ///< automatic: evaluations of the forces before the present step
   Segment segment_;
 
   bool in_flight_ = false;  ///< flight_ is the present one
