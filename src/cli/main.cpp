@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/accuracy_command.h"
+#include "cli/calibrate_command.h"
 #include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/trial_command.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr Command kCommands[] = {
     {"accuracy", "Show what accuracy costs in time: every solver on one scene", set_up_accuracy},
+    {"calibrate", "Search for values such that given facts hold", set_up_calibrate},
     {"trial", "Run one trial of a scene, without ROS, as fast as it goes", set_up_trial},
 };
 
