@@ -112,6 +112,7 @@ def draw_curves(figure, rows):
     axes.set_xlabel(symbol(along))
     axes.set_ylabel(symbol(figure["of"]))
     axes.set_ylim(bottom=0.0)
+    axes.set_title("medians and quartiles; filled: impact mode prevails", fontsize=9)
     tidy(axes)
     axes.legend(frameon=False, fontsize=9, ncol=len(curves) if len(curves) < 4 else 2)
     return sheet

@@ -23,10 +23,11 @@ def output_of(command):
     return process.stdout
 
 
-def count(command, folder):
-    """What the program prints, under callgrind; its files go to the folder."""
+def count(command, folder, counted=COUNTED):
+    """What the program prints, under callgrind; its files go to the folder. counted None: all of the program."""
+    collect = ["--toggle-collect=" + counted] if counted else []
     return output_of(["valgrind", "--tool=callgrind", "--log-file=" + os.path.join(folder, "log"),
-                      "--toggle-collect=" + COUNTED, "--callgrind-out-file=" + os.path.join(folder, "out")] + command)
+                      "--callgrind-out-file=" + os.path.join(folder, "out")] + collect + command)
 
 
 def instructions_of(command):
@@ -37,14 +38,14 @@ def instructions_of(command):
             return text, int(re.search(r"Collected : (\d+)", file.read()).group(1))
 
 
-def instructions_by_function(command, functions):
+def instructions_by_function(command, functions, counted=COUNTED):
     """(what the program prints, {function: instructions in it and in all that it calls}) in Simulation::advance."""
     with tempfile.TemporaryDirectory(prefix="bench_") as folder:
-        text = count(command, folder)
+        text = count(command, folder, counted)
         listing = output_of(["callgrind_annotate", "--inclusive=yes", "--threshold=100", os.path.join(folder, "out")])
     found = {}
     for line in listing.splitlines():
-        entry = re.match(r" *([\d,]+) \([ \d.]+%\)\s+\S+?:(?:vibratory_alignment::)?([\w:]+)\(", line)
+        entry = re.match(r" *([\d,]+) \([ \d.]+%\)\s+\S+?:(?:vibratory_alignment::)?([\w:]+)(?:\[abi:\w+\])?\(", line)
         if entry and entry.group(2) in functions:
             found[entry.group(2)] = max(found.get(entry.group(2), 0), int(entry.group(1).replace(",", "")))
     return text, {name: found.get(name, 0) for name in functions}

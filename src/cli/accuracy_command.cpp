@@ -1,8 +1,5 @@
 #include "cli/accuracy_command.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -18,12 +15,11 @@
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
 #include "cli/scene_path.h"
+#include "cli/script.h"
 #include "model/scene_loader.h"
 #include "model/solver_choice.h"
 #include "model/solver_names.h"
 #include "study/accuracy.h"
-
-extern char** environ;
 
 namespace vibratory_alignment {
 namespace {
@@ -97,25 +93,6 @@ void write_csv(const std::string& path, const std::string& name, const std::vect
   if (!file) throw OutputError(name, std::strerror(errno));
 }
 
-/// Draws the CSV file with the script beside this program. Throws std::runtime_error.
-void draw(const std::string& csv, const std::string& picture, const std::string& title) {
-  const std::filesystem::path script =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plot_accuracy.py";
-  if (!std::filesystem::exists(script))
-    throw std::runtime_error("--plot: " + script.string() + " is missing; is the package installed whole?");
-  std::vector<std::string> words = {script.string(), csv, picture, "--title", title};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, script.c_str(), nullptr, nullptr, arguments.data(), environ);
-  if (error != 0) throw std::runtime_error("--plot: " + script.string() + ": " + std::strerror(error));
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error("--plot: " + script.string() + " failed; it needs python3-matplotlib");
-}
-
 /// What `solver: {accuracy: ...}` makes of it, and how that went if it is among the runs.
 void print_choice(const Scene& scene, const std::vector<AccuracyRun>& runs, double error) {
   const std::string solver = solver_for_accuracy(scene);
@@ -185,7 +162,7 @@ int run_accuracy(const Options& options) {
   if (picture) {
     const std::string table = picture->temporary() + ".csv";
     write_csv(table, table, runs, reference);
-    draw(table, picture->temporary(), scene.name);
+    run_script("plot_accuracy.py", {table, picture->temporary(), "--title", scene.name}, "--plot");
     std::filesystem::remove(table);
     picture->commit();
   }

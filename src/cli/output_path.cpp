@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-OutputPath::OutputPath(const std::string& option, const std::string& path) : path_(path), target_(path) {
+OutputPath::OutputPath(const std::string& option, const std::string& path, Unfinished unfinished)
+    : path_(path), target_(path), unfinished_(unfinished) {
   if (path.empty()) throw UsageError(option + ": the name of the file is empty");
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -37,17 +38,17 @@ OutputPath::OutputPath(const std::string& option, const std::string& path) : pat
     if (!error) target_ = resolved.string();
   }
   temporary_ = target_ + ".part";
-  std::FILE* const file = std::fopen(temporary_.c_str(), "wb");
+  std::FILE* const file = std::fopen(temporary_.c_str(), unfinished == Unfinished::kept ? "ab" : "wb");
   if (file == nullptr) refuse(option, path, std::strerror(errno));
   std::fclose(file);
 }
 
 OutputPath::~OutputPath() {
-  if (!committed_ && temporary_ != target_) std::remove(temporary_.c_str());
+  if (!committed_ && unfinished_ == Unfinished::removed && !is_direct()) std::remove(temporary_.c_str());
 }
 
 void OutputPath::commit() {
-  if (temporary_ != target_ && std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+  if (!is_direct() && std::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw OutputError(path_, std::strerror(errno));
   }
   committed_ = true;

@@ -5,19 +5,26 @@
 
 namespace vibratory_alignment {
 
-/// The path of an output file. Until commit() the file is written to `temporary()`, "PATH.part" beside it; what has
-/// not been committed is removed again. Devices and pipes (/dev/stdout) are written directly.
+/// What becomes of a file that has not been committed.
+enum class Unfinished { removed, kept };
+
+/// The path of an output file. Until commit() the file is written to `temporary()`, "PATH.part" beside it. Devices and
+/// pipes (/dev/stdout) are written directly.
 class OutputPath {
  public:
-  /// Creates the temporary file, so that a path that cannot be written is found out before anything runs.
+  /// Creates the temporary file, so that a path that cannot be written is found out before anything runs; one that is
+  /// there is emptied, unless such files are kept.
   /// Throws UsageError that names `option`, the path and the reason.
-  OutputPath(const std::string& option, const std::string& path);
+  OutputPath(const std::string& option, const std::string& path, Unfinished unfinished = Unfinished::removed);
   ~OutputPath();
   OutputPath(const OutputPath&) = delete;
   OutputPath& operator=(const OutputPath&) = delete;
 
   /// Where to write now.
   const std::string& temporary() const { return temporary_; }
+
+  /// Without a temporary file: a device or pipe.
+  bool is_direct() const { return temporary_ == target_; }
 
   /// As the user gave it, for messages.
   const std::string& path() const { return path_; }
@@ -29,6 +36,7 @@ class OutputPath {
   std::string path_;
   std::string target_;     ///< path_ with symbolic links resolved
   std::string temporary_;  ///< equal to target_ when it is written directly
+  Unfinished unfinished_;
   bool committed_ = false;
 };
 

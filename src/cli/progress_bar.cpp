@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kDelay(1000);
 constexpr std::chrono::milliseconds kInterval(100);
-constexpr int kTextWidth = 58;  ///< columns that the text around the bar takes
+constexpr int kFrame = 11;  ///< columns around the bar, and one that stays free so that no terminal breaks the line
 constexpr int kMaxBarWidth = 40;
 
 int terminal_width() {
@@ -28,8 +28,7 @@ bool stdout_is_terminal() {
   return isatty(STDOUT_FILENO) == 1 && (terminal == nullptr || std::string(terminal) != "dumb");
 }
 
-ProgressBar::ProgressBar(double end, bool shown)
-    : end_(end), shown_(shown), begin_(Clock::now()), next_(begin_ + kDelay) {}
+ProgressBar::ProgressBar(bool shown) : shown_(shown), begin_(Clock::now()), next_(begin_ + kDelay) {}
 
 ProgressBar::~ProgressBar() {
   if (!drawn_) return;
@@ -37,23 +36,24 @@ ProgressBar::~ProgressBar() {
   std::fflush(stdout);
 }
 
-void ProgressBar::update(double time) {
+void ProgressBar::update(double share, const std::function<std::string()>& describe) {
   if (!shown_) return;
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
-  draw(time, now);
+  draw(std::clamp(share, 0.0, 1.0), describe());
   next_ = now + kInterval;
 }
 
-void ProgressBar::draw(double time, Clock::time_point now) {
-  const double done = end_ > 0.0 ? std::clamp(time / end_, 0.0, 1.0) : 0.0;
-  const int width = std::clamp(terminal_width() - kTextWidth, 0, kMaxBarWidth);
-  const int filled = static_cast<int>(done * width);
+double ProgressBar::seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+void ProgressBar::draw(double share, const std::string& words) {
+  const int room = terminal_width() - kFrame;
+  const std::string text = words.substr(0, static_cast<std::size_t>(std::max(0, room)));
+  const int width = std::clamp(room - static_cast<int>(text.size()), 0, kMaxBarWidth);
+  const int filled = static_cast<int>(share * width);
   const std::string bar =
       std::string(static_cast<size_t>(filled), '#') + std::string(static_cast<size_t>(width - filled), '.');
-  const double seconds = std::chrono::duration<double>(now - begin_).count();
-  std::printf("\r\033[K[%s] %3.0f %%  at t = %.5g of at most %.5g, %.0f s", bar.c_str(), 100.0 * done, time, end_,
-              seconds);
+  std::printf("\r\033[K[%s] %3.0f %%  %s", bar.c_str(), 100.0 * share, text.c_str());
   std::fflush(stdout);
   drawn_ = true;
 }

@@ -2,27 +2,32 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <string>
 
 namespace vibratory_alignment {
 
 /// Shown on stdout once the run has taken a second, ten times a second, and erased when it goes out of scope.
 class ProgressBar {
  public:
-  /// `end`: the time at which the run ends at the latest, in the unit of update(). `shown`: false keeps it silent.
-  ProgressBar(double end, bool shown);
+  /// `shown`: false keeps it silent.
+  explicit ProgressBar(bool shown);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// The run has come to `time`. Cheap enough to be called at every step.
-  void update(double time);
+  /// The run has come to `share` (0 to 1) of its way; `describe` is asked for the words behind the bar when it is
+  /// drawn. Cheap enough to be called at every step.
+  void update(double share, const std::function<std::string()>& describe);
+
+  /// Since it was made.
+  double seconds() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void draw(double time, Clock::time_point now);
+  void draw(double share, const std::string& words);
 
-  double end_;
   bool shown_;
   bool drawn_ = false;
   Clock::time_point begin_, next_;

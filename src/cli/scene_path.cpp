@@ -7,6 +7,7 @@
 #include <iterator>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "cli/errors.h"
 
@@ -47,7 +48,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return items;
 }
 
-/// Places where config/scenes may be, best first: around the executable (install prefix, source tree, devel space),
+/// Places where config/ may be, best first: around the executable (install prefix, source tree, devel space),
 /// then along ROS_PACKAGE_PATH. A devel space lists its source directories in ".catkin".
 std::vector<fs::path> package_directories() {
   std::vector<fs::path> found;
@@ -73,19 +74,29 @@ std::vector<fs::path> package_directories() {
   return found;
 }
 
-/// The first config/scenes there is; empty when there is none.
-fs::path scenes_directory() {
+/// A kind of file that comes with the package.
+struct Kind {
+  const char* folder;    ///< below config/
+  const char* singular;  ///< as messages name it
+  const char* argument;  ///< on the command line
+};
+
+constexpr Kind kScene = {"scenes", "scene", "SCENE"};
+constexpr Kind kStudy = {"studies", "study", "STUDY"};
+constexpr Kind kFacts = {"paper", "facts file", "--facts"};
+
+/// The first such folder there is; empty when there is none.
+fs::path directory_of(const Kind& kind) {
   for (const fs::path& directory : package_directories()) {
-    if (is_folder(directory / "config" / "scenes")) return directory / "config" / "scenes";
+    if (is_folder(directory / "config" / kind.folder)) return directory / "config" / kind.folder;
   }
   return {};
 }
 
-}  // namespace
-
-std::vector<std::string> shipped_scenes() {
+/// Sorted.
+std::vector<std::string> shipped(const Kind& kind) {
   std::vector<std::string> names;
-  const fs::path directory = scenes_directory();
+  const fs::path directory = directory_of(kind);
   if (directory.empty()) return names;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory, error)) {
@@ -96,25 +107,32 @@ std::vector<std::string> shipped_scenes() {
   return names;
 }
 
-std::string find_scene(const std::string& argument) {
-  if (argument.empty()) throw UsageError("SCENE: the name is empty");
+std::string find(const Kind& kind, const std::string& argument) {
+  if (argument.empty()) throw UsageError(std::string(kind.argument) + ": the name is empty");
   if (is_file(argument)) return argument;
-  const fs::path directory = scenes_directory();
+  const fs::path directory = directory_of(kind);
   if (!directory.empty() && fs::path(argument).is_relative()) {
     for (const char* suffix : {"", ".yaml"}) {
       const fs::path file = directory / (argument + suffix);
       if (is_file(file)) return file.string();
     }
   }
-  if (is_folder(argument)) throw UsageError(argument + ": is a directory; a scene is a YAML file");
-  std::string message = argument + ": no such file, and no scene of that name comes with the package";
+  const std::string word = kind.singular;
+  if (is_folder(argument)) throw UsageError(argument + ": is a directory; a " + word + " is a YAML file");
+  std::string message = argument + ": no such file, and no " + word + " of that name comes with the package";
   std::string separator = " (these do: ";
-  for (const std::string& name : shipped_scenes()) {
+  for (const std::string& name : shipped(kind)) {
     message += separator + name;
     separator = ", ";
   }
   if (separator == ", ") message += ")";
   throw UsageError(message);
 }
+
+}  // namespace
+
+std::string find_scene(const std::string& argument) { return find(kScene, argument); }
+std::string find_study(const std::string& argument) { return find(kStudy, argument); }
+std::string find_facts(const std::string& argument) { return find(kFacts, argument); }
 
 }  // namespace vibratory_alignment

@@ -1,8 +1,7 @@
-// Finds the scene that is named on the command line.
+// Finds the scene, study or facts file that is named on the command line.
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace vibratory_alignment {
 
@@ -10,7 +9,10 @@ namespace vibratory_alignment {
 /// ("fig2", "hard/grazing", with or without ".yaml"). Throws UsageError, with the names there are, if it is neither.
 std::string find_scene(const std::string& argument);
 
-/// Names of the scenes that come with the package, sorted; empty when its config/scenes cannot be found.
-std::vector<std::string> shipped_scenes();
+/// The same for a study, in config/studies.
+std::string find_study(const std::string& argument);
+
+/// The same for a facts file, in config/paper.
+std::string find_facts(const std::string& argument);
 
 }  // namespace vibratory_alignment

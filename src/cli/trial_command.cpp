@@ -228,18 +228,27 @@ class Recorder {
   std::unique_ptr<BagWriter> bag_;
 };
 
+/// Shows how far a trial is that ends at time `end` at the latest.
+void show(ProgressBar& progress, double time, double end) {
+  progress.update(end > 0.0 ? time / end : 0.0, [&] {
+    char words[80];
+    std::snprintf(words, sizeof words, "at t = %.5g of at most %.5g, %.0f s", time, end, progress.seconds());
+    return std::string(words);
+  });
+}
+
 /// Runs to the end or to a signal, whose number it returns.
-int simulate(Simulation& simulation, Recorder& recorder, double interval, ProgressBar& progress) {
+int simulate(Simulation& simulation, Recorder& recorder, double interval, double end, ProgressBar& progress) {
   const InterruptGuard interrupt;
   if (!recorder.wanted()) {
-    while (interrupt.signal() == 0 && simulation.advance()) progress.update(simulation.time());
+    while (interrupt.signal() == 0 && simulation.advance()) show(progress, simulation.time(), end);
     return interrupt.signal();
   }
   Sampler sampler(simulation, interval, true);
   Sample sample;
   while (interrupt.signal() == 0 && sampler.next(sample)) {
     recorder.write(sample);
-    progress.update(sample.time);
+    show(progress, sample.time, end);
   }
   return interrupt.signal();
 }
@@ -259,8 +268,8 @@ int run_trial(const TrialOptions& options) {
 
   int signal = 0;
   {
-    ProgressBar progress(end, !options.json && stdout_is_terminal());
-    signal = simulate(simulation, recorder, interval, progress);
+    ProgressBar progress(!options.json && stdout_is_terminal());
+    signal = simulate(simulation, recorder, interval, end, progress);
   }
   if (signal != 0) {
     std::fprintf(stderr, "align: interrupted at t = %.6g; nothing is reported or written\n",

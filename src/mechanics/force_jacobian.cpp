@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mechanics/mobility.h"
+#include "mechanics/holding_forces.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -72,18 +72,15 @@ double turned(Face face, double c, double s, double across, double along) {
   return is_part_face(face) ? 2.0 * c * s * (along - across) : 0.0;
 }
 
-/// The T that keep V' = 0 while the rest of the accelerations changes by one column.
-void hold(const Mobility& mobility, const std::array<Sticking, kSiteCount>& stuck, int count, const Vector3d& inverse,
-          const std::array<RowVector3d, kSiteCount>& rate, Matrix3d& matrix) {
+/// Changes of the accelerations, column by column, less what the T that keep V' = 0 take out of them. `rate`: what else
+/// V' of every contact changes by.
+void hold(const HoldingForces& holding, const std::array<RowVector3d, kSiteCount>& rate, int count, Matrix3d& matrix) {
   for (int column = 0; column < 3; ++column) {
-    Mobility::Vector rhs{}, noise{};
-    for (int i = 0; i < count; ++i) {
-      const double pushed = stuck[i].tangent.dot(matrix.col(column));
-      rhs[i] = -pushed - rate[i][column];
-      noise[i] = kHoldRounding * (std::abs(pushed) + std::abs(rate[i][column]));
-    }
-    const Mobility::Vector force = mobility.hold(rhs, noise);
-    for (int i = 0; i < count; ++i) matrix.col(column) += force[i] * inverse.cwiseProduct(stuck[i].tangent);
+    HoldingForces::Vector slip_rates{};
+    for (int i = 0; i < count; ++i) slip_rates[i] = rate[i][column];
+    const HoldingForces::Answer held =
+        holding.hold_motion({{}, matrix(0, column), matrix(1, column), matrix(2, column)}, slip_rates);
+    matrix.col(column) << held.x, held.y, held.phi;
   }
 }
 
@@ -136,19 +133,19 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
   by_q = inverse.asDiagonal() * by_q;
   by_v = inverse.asDiagonal() * by_v;
   if (stuck_count > 0) {
-    Mobility::Directions tangents{};
+    HoldingForces::Rows rows{};
     std::array<RowVector3d, kSiteCount> rate_by_q, rate_by_v;
     const RowVector3d acceleration(forces.ax, forces.ay, forces.alpha);
     for (int i = 0; i < stuck_count; ++i) {
       const Sticking& at = stuck[static_cast<std::size_t>(i)];
-      tangents[i] = {at.tangent[0], at.tangent[1], at.tangent[2]};
+      rows[i] = {at.tangent[0], at.tangent[1], at.tangent[2]};
       rate_by_q[i] = acceleration * at.tangent_by_position + at.rate_by_position;
       rate_by_v[i] = at.rate_by_velocity;
     }
-    Mobility mobility;
-    mobility.set(mobility_of(system, tangents, stuck_count), stuck_count, typical_mobility(system));
-    hold(mobility, stuck, stuck_count, inverse, rate_by_q, by_q);
-    hold(mobility, stuck, stuck_count, inverse, rate_by_v, by_v);
+    HoldingForces holding;
+    holding.set(system, rows, stuck_count);
+    hold(holding, rate_by_q, stuck_count, by_q);
+    hold(holding, rate_by_v, stuck_count, by_v);
   }
   const auto lock = [&](const Axis& axis, int column) {
     if (axis.moves) return;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mechanics/mobility.h"
+#include "mechanics/holding_forces.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -58,28 +58,22 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
   forces.alpha = system.phi.inverse_inertia * moment;
   if (sticking_count == 0) return;
 
-  // T of what sticks takes out what is left of V'
-  Mobility::Vector rhs{}, noise{};
-  Mobility::Directions tangents{};
+  // T of what sticks takes out V'
+  HoldingForces::Rows rows{};
+  HoldingForces::Vector slip_rates{};
   for (int m = 0; m < sticking_count; ++m) {
     const ContactKinematics& k = kinematics[static_cast<std::size_t>(sticking[m])];
-    const double arm = moment_of(k.lever, k.tangent);
-    tangents[m] = {k.tangent.x, k.tangent.y, arm};
-    const double along_x = forces.ax * k.tangent.x, along_y = forces.ay * k.tangent.y, turning = forces.alpha * arm;
-    rhs[m] = -(along_x + along_y + turning + k.slip_rate);
-    noise[m] = kHoldRounding * (std::abs(along_x) + std::abs(along_y) + std::abs(turning) + std::abs(k.slip_rate));
+    rows[m] = {k.tangent.x, k.tangent.y, moment_of(k.lever, k.tangent)};
+    slip_rates[m] = k.slip_rate;
   }
-  Mobility mobility;
-  mobility.set(mobility_of(system, tangents, sticking_count), sticking_count, typical_mobility(system));
-  const Mobility::Vector held = mobility.hold(rhs, noise);
-  for (int m = 0; m < sticking_count; ++m) {
-    const auto index = static_cast<std::size_t>(sticking[m]);
-    const Load3& t = tangents[m];
-    forces.contact[index].tangential_force = held[m];
-    forces.ax += held[m] * t.x * system.x.inverse_inertia;
-    forces.ay += held[m] * t.y * system.y.inverse_inertia;
-    forces.alpha += held[m] * t.phi * system.phi.inverse_inertia;
-  }
+  HoldingForces holding;
+  holding.set(system, rows, sticking_count);
+  const HoldingForces::Answer held = holding.hold_motion({{}, forces.ax, forces.ay, forces.alpha}, slip_rates);
+  for (int m = 0; m < sticking_count; ++m)
+    forces.contact[static_cast<std::size_t>(sticking[m])].tangential_force = held.force[m];
+  forces.ax = held.x;
+  forces.ay = held.y;
+  forces.alpha = held.phi;
 }
 
 }  // namespace vibratory_alignment

@@ -28,6 +28,24 @@ constexpr double kMotionless = 1e60;
 /// Products with the inverse until rhs is met to rounding.
 constexpr int kPasses = 2;
 
+/// Rounding of V' relative to the sizes of its terms.
+constexpr double kSlipRateRounding = 1e-14;
+
+/// Rounding of what is left of a motion, relative to what was taken out of it.
+constexpr double kRestRounding = 1e-15;
+
+/// Makes of a change what it leaves of a motion. Where all is held, that is rest: a part that moves by rounding would
+/// have the time scale of rounding.
+void leave(const HoldingForces::Answer& motion, HoldingForces::Answer& change) {
+  const auto left_of = [](double rate, double changed) {
+    const double left = rate + changed;
+    return std::abs(left) <= kRestRounding * std::abs(rate) ? 0.0 : left;
+  };
+  change.x = left_of(motion.x, change.x);
+  change.y = left_of(motion.y, change.y);
+  change.phi = left_of(motion.phi, change.phi);
+}
+
 }  // namespace
 
 /// Two steps, for the rank is one of J, the size that of J M^-1/2: J = Q V with orthonormal columns of Q,
@@ -64,7 +82,29 @@ HoldingForces::Factor HoldingForces::factorize(double singular) const {
   decomposition.compute(tall);
   const Inverse inverse = decomposition.pseudoInverse().transpose() * q.transpose();
   for (int a = 0; a < 3; ++a) factor.inverse.row(axes[a]) = inverse.row(a);
+  if (factor.rank < count_) share_alike(singular, factor);
   return factor;
+}
+
+/// Contacts that count as the same take the same force to the last digit: so they reach the limit of friction together.
+void HoldingForces::share_alike(double singular, Factor& factor) const {
+  const auto alike = [&](const TangentRow& a, const TangentRow& b) {
+    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.moment - b.moment) / reach_}) <= singular;
+  };
+  std::array<bool, kSiteCount> done{};
+  for (int i = 0; i < count_; ++i) {
+    if (done[i]) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    std::array<int, kSiteCount> group{};
+    int size = 0;
+    for (int j = i; j < count_; ++j) {
+      if (done[j] || !alike(rows_[i], rows_[j])) continue;
+      done[j] = true;
+      group[size++] = j;
+      sum += factor.inverse.col(j);
+    }
+    for (int g = 0; g < size; ++g) factor.inverse.col(group[g]) = sum / size;
+  }
 }
 
 void HoldingForces::set(const System& system, const Rows& rows, int count) {
@@ -132,6 +172,55 @@ HoldingForces::Answer HoldingForces::hold(const Vector& rhs, const Vector& noise
   bool exact = true;
   for (int i = 0; i < count_; ++i) exact = exact && std::abs(left_over(i, rhs, answer)) <= noise[i];
   return exact ? answer : hold_with(full_, rhs);
+}
+
+HoldingForces::Answer HoldingForces::hold_motion_with(const Factor& factor, const Answer& motion,
+                                                      const Vector& own_rates) const {
+  Vector rates{};
+  for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, motion) - own_rates[i];
+  Answer held = hold_with(factor, rates);
+  const double rate[3] = {motion.x, motion.y, motion.phi * reach_};
+  Eigen::Vector3d asked = Eigen::Vector3d::Zero();
+  for (int a = 0; a < 3; ++a)
+    if (scale_[a] > 0.0) asked[a] = rate[a] / scale_[a];
+  for (int i = 0; i < count_; ++i) asked += factor.inverse.col(i) * own_rates[i];
+  for (int i = 0; i < count_; ++i) held.force[i] = -factor.inverse.col(i).dot(asked);
+  leave(motion, held);
+  return held;
+}
+
+HoldingForces::Answer HoldingForces::hold_motion(const Answer& motion, const Vector& own_rates,
+                                                 const Vector& noise) const {
+  if (count_ == 0 || holds_nothing_) return motion;
+  if (count_ == 1) {
+    Answer held = hold({-left_over(0, {}, motion) - own_rates[0]}, noise);
+    leave(motion, held);
+    return held;
+  }
+  const Answer held = hold_motion_with(safe_, motion, own_rates);
+  if (safe_.rank == full_.rank) return held;
+  bool exact = true;
+  for (int i = 0; i < count_; ++i) exact = exact && std::abs(left_over(i, {}, held) + own_rates[i]) <= noise[i];
+  return exact ? held : hold_motion_with(full_, motion, own_rates);
+}
+
+HoldingForces::Answer HoldingForces::hold_motion(const Answer& motion, const Vector& own_rates) const {
+  const auto noise_of = [&](const Answer& now) {
+    Vector noise{};
+    for (int i = 0; i < count_; ++i)
+      noise[i] = kSlipRateRounding * (std::abs(rows_[i].x * now.x) + std::abs(rows_[i].y * now.y) +
+                                      std::abs(rows_[i].moment * now.phi) + std::abs(own_rates[i]));
+    return noise;
+  };
+  Answer held = hold_motion(motion, own_rates, noise_of(motion));
+  if (!delicate_) return held;
+  Vector rates{};
+  for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, held) - own_rates[i];
+  const Answer correction = hold(rates, noise_of(held));
+  held.x += correction.x;
+  held.y += correction.y;
+  held.phi += correction.phi;
+  return held;
 }
 
 HoldingForces::Answer HoldingForces::respond(const TangentRow& load) const {

@@ -45,6 +45,14 @@ class HoldingForces {
   /// The smallest T with |G T - rhs| <= noise; if none is as exact, the smallest of those that come nearest.
   Answer hold(const Vector& rhs, const Vector& noise) const;
 
+  /// What is left of a motion of the part (rates of its axes; no forces) when T takes V' out of it, and that T; `noise`
+  /// as above. V' is what the motion makes of it and `own_rates` besides. T follows from the motion itself, for in V'
+  /// the slow axes drown beside the fast ones.
+  Answer hold_motion(const Answer& motion, const Vector& own_rates, const Vector& noise) const;
+
+  /// The same to rounding of V': taken out once more where that is delicate.
+  Answer hold_motion(const Answer& motion, const Vector& own_rates) const;
+
   /// How a load on the part (force, moment) changes the rates of the axes while the contacts hold; no force told.
   Answer respond(const TangentRow& load) const;
 
@@ -62,7 +70,9 @@ class HoldingForces {
   };
   using Inverse = decltype(Factor::inverse);
   Factor factorize(double singular) const;
+  void share_alike(double singular, Factor& factor) const;
   Answer hold_with(const Factor& factor, const Vector& rhs) const;
+  Answer hold_motion_with(const Factor& factor, const Answer& motion, const Vector& own_rates) const;
   double mobility(int i) const;
 
   int count_ = 0;

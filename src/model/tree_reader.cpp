@@ -304,7 +304,6 @@ const YAML::Node* TreeReader::value(const std::string& key) {
 }
 
 std::vector<std::string> TreeReader::keys() {
-  if (is_map_ && entries_.empty()) faults_->push_back(path_ + ": (an empty map): must have at least one key");
   for (const Entry& entry : entries_) known_.push_back(entry.first);
   return known_;
 }

@@ -52,7 +52,7 @@ class TreeReader {
   /// What stands at the key, unread; null if nothing does.
   const YAML::Node* value(const std::string& key);
 
-  /// The keys of a map whose keys are not known beforehand, in the order of the file; at least one.
+  /// The keys of a map whose keys are not known beforehand, in the order of the file.
   std::vector<std::string> keys();
 
   /// `unit` is for the message: "must be a number > 0 [kg]".

@@ -47,6 +47,10 @@ constexpr double kSmallestTolerance = 1e-16;
 /// the impacts after it and adds up in the energy.
 constexpr double kStepShare = 1e-3;
 
+/// Truncation error of friction forces in the tanh layer, as a share of the tolerance asked for: what of it moves the
+/// part is below that of a step.
+constexpr double kForceShare = 0.1;
+
 /// Events in a row that advance time by nothing: more than this is no motion but a contradiction.
 constexpr int kMaxEventsWithoutProgress = 100;
 
@@ -147,6 +151,7 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
                          long step_limit, ContactMethod method)
     : system_(saturated(system, std::max(kStepShare * tolerance, kSmallestTolerance))),
       tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
+      force_tolerance_(std::max(kForceShare * tolerance, kSmallestTolerance)),
       contact_order_(series_order(tolerance_)),
       search_tolerance_(std::max(kSearchShare * tolerance_, kFlightTolerance)),
       search_order_(std::min(kSearchOrder + static_cast<int>(-std::log10(search_tolerance_)), kMaxOrder)),
@@ -276,7 +281,8 @@ double EventSolver::expand_contact(const DriveForms& drives) {
   series_.expand_contact(state_, drives, contact_order_, segment_);
   // rates so high that their powers overflow
   if (!(last_terms(segment_) < kNearOverflow)) series_.expand_contact(state_, drives, kLowOrder, segment_);
-  return std::min(series_step(segment_, system_.friction, tolerance_), tanh_layer_step());
+  return std::min({series_step(segment_, system_.friction, tolerance_), tanh_layer_step(),
+                   layer_force_step(segment_, system_.friction, force_tolerance_)});
 }
 
 /// The same, once friction holds what is said to stick.

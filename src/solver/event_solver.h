@@ -41,7 +41,7 @@ class EventSolver final : public Solver {
   [[noreturn]] void fail(const std::string& reason) const;
 
   System system_;
-  double tolerance_;
+  double tolerance_, force_tolerance_;
   int contact_order_;
   double search_tolerance_;
   int search_order_;

@@ -107,7 +107,8 @@ class MotionSeries {
   void negated_slip_rates(int k, Segment& segment, HoldingForces::Vector& rates);
   void watch_held(int k, const HoldingForces::Vector& rates, const HoldingForces::Vector& noise,
                   const HoldingForces::Answer& held);
-  void change_motion(int k, const HoldingForces::Answer& change, Segment& segment);
+  static HoldingForces::Answer motion(int k, const Segment& segment);
+  void set_motion(int k, const HoldingForces::Answer& motion, Segment& segment);
   double slip_rate_size(const Contact& contact, int k, const Segment& segment) const;
   double motion_size(int k, int known, const Segment& segment) const;
   void direction_terms(Contact& contact, int k) const;

@@ -92,28 +92,38 @@ void MotionSeries::negated_slip_rates(int k, Segment& segment, HoldingForces::Ve
   }
 }
 
-/// Adds to the accelerations of power k.
-void MotionSeries::change_motion(int k, const HoldingForces::Answer& change, Segment& segment) {
-  segment.vx[k + 1] += change.x / (k + 1);
-  segment.vy[k + 1] += change.y / (k + 1);
-  segment.omega[k + 1] += change.phi / (k + 1);
+/// The accelerations of power k.
+HoldingForces::Answer MotionSeries::motion(int k, const Segment& segment) {
+  return {{}, (k + 1) * segment.vx[k + 1], (k + 1) * segment.vy[k + 1], (k + 1) * segment.omega[k + 1]};
+}
+
+void MotionSeries::set_motion(int k, const HoldingForces::Answer& motion, Segment& segment) {
+  segment.vx[k + 1] = motion.x / (k + 1);
+  segment.vy[k + 1] = motion.y / (k + 1);
+  segment.omega[k + 1] = motion.phi / (k + 1);
   segment.x[k + 2] = segment.vx[k + 1] / (k + 2);
   segment.y[k + 2] = segment.vy[k + 1] / (k + 2);
   segment.phi[k + 2] = segment.omega[k + 1] / (k + 2);
-  known_centre_ = std::min(known_centre_, k + 1);  // that of k + 2 was without this change
+  known_centre_ = std::min(known_centre_, k + 1);  // that of k + 2 was without this motion
 }
 
-/// Tangential forces of power k that keep V = 0: T = 0 first, then G T = -V' corrects the acceleration.
+/// Tangential forces of power k that keep V = 0: those that the accelerations with T = 0, and what the powers before
+/// make of V', ask for.
 void MotionSeries::hold_sticking(int k, Segment& segment) {
   if (k == 0) set_up_holding();
-  HoldingForces::Vector rates{}, noise{};
+  const HoldingForces::Answer free = motion(k, segment);
+  HoldingForces::Vector rates{}, noise{}, own{};
+  set_motion(k, {}, segment);
   negated_slip_rates(k, segment, rates);
+  for (int m = 0; m < sticking_count_; ++m) own[m] = -rates[m];
   for (int m = 0; m < sticking_count_ && !holding_.regular(); ++m)
     noise[m] = kSlipRateRounding * slip_rate_size(contacts_[sticking_[m]], k, segment);
-  const HoldingForces::Answer held = holding_.hold(rates, noise);
+  const HoldingForces::Answer held = holding_.hold_motion(free, own, noise);
   for (int m = 0; m < sticking_count_; ++m) segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
-  change_motion(k, held, segment);
-  if (!holding_.delicate()) {
+  set_motion(k, held, segment);
+  // V of what slides beside them may begin with less than the rounding of these forces makes of it
+  const bool something_slides = segment.loaded_count > sticking_count_;
+  if (!holding_.delicate() && !something_slides) {
     watch_held(k, rates, noise, held);
     return;
   }
@@ -122,7 +132,8 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   noise.fill(kSlipRateRounding * motion_size(k, k + 2, segment));
   const HoldingForces::Answer correction = holding_.hold(rates, noise);
   watch_held(k, rates, noise, correction);
-  change_motion(k, correction, segment);
+  const HoldingForces::Answer now = motion(k, segment);
+  set_motion(k, {{}, now.x + correction.x, now.y + correction.y, now.phi + correction.phi}, segment);
 }
 
 /// Keeps what is left of V' of power k.

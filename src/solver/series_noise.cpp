@@ -40,7 +40,7 @@ bool sticks(const Segment& segment, int loaded) {
 }
 
 /// What errors of forces and moment make of V' while some contacts stick: little, where these hold what the errors move
-/// most. Only where it is little beside what they would make of a free part.
+/// most. Only where it is little beside what they would make of a free part, or decides about what slides.
 void hold_noise(const System& system, const Segment& segment, const Kinematics& kinematics, const TangentRow& load,
                 double rounding, double curvature, SeriesNoise& noise) {
   HoldingForces::Rows rows;
@@ -50,7 +50,7 @@ void hold_noise(const System& system, const Segment& segment, const Kinematics& 
   if (count == 0) return;
   HoldingForces holding;
   holding.set(system, rows, count);
-  if (!holding.delicate()) return;
+  if (!holding.delicate() && count == segment.loaded_count) return;
   const HoldingForces::Answer x = holding.respond({load.x, 0.0, 0.0}), y = holding.respond({0.0, load.y, 0.0}),
                               phi = holding.respond({0.0, 0.0, load.moment});
   const int order = segment.order;

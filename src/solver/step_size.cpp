@@ -35,6 +35,17 @@ double log2_step(const Series& v, int order, double log2_tolerance) {
   return std::min(step[0], step[1]);
 }
 
+/// Likewise of T beside f N, to the power `order`.
+double log2_friction_step(const ContactSeries& contact, double friction, int order, double log2_tolerance) {
+  Series scale = contact.tangential_force;
+  for (int k = 0; k < kLeadingTerms; ++k) scale[k] = std::abs(scale[k]) + friction * std::abs(contact.normal_force[k]);
+  return log2_step(scale, order, log2_tolerance);
+}
+
+bool has_law(const Segment& segment, const ContactSeries& contact, Slip slip) {
+  return segment.contacts[static_cast<std::size_t>(contact.site)].slip == slip;
+}
+
 }  // namespace
 
 double series_step(const Segment& segment, double friction, double tolerance) {
@@ -50,11 +61,19 @@ double series_step(const Segment& segment, double friction, double tolerance) {
   // a contact that holds the part at rest: all that changes is T
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
-    if (segment.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::stick) continue;
-    Series scale = contact.tangential_force;
-    for (int k = 0; k < kLeadingTerms; ++k)
-      scale[k] = std::abs(scale[k]) + friction * std::abs(contact.normal_force[k]);
-    shortest = std::min(shortest, log2_step(scale, segment.order - 1, log2_tolerance));
+    if (has_law(segment, contact, Slip::stick))
+      shortest = std::min(shortest, log2_friction_step(contact, friction, segment.order - 1, log2_tolerance));
+  }
+  return std::exp2(shortest);
+}
+
+double layer_force_step(const Segment& segment, double friction, double tolerance) {
+  const double log2_tolerance = rough_log2(tolerance);
+  double shortest = kInfinity;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[i];
+    if (has_law(segment, contact, Slip::regularized))
+      shortest = std::min(shortest, log2_friction_step(contact, friction, segment.order, log2_tolerance));
   }
   return std::exp2(shortest);
 }

@@ -11,6 +11,11 @@ namespace vibratory_alignment {
 /// Infinity for what is at rest.
 double series_step(const Segment& segment, double friction, double tolerance);
 
+/// Longest time over which the last two terms of T of every contact in the tanh layer stay below `tolerance` times T
+/// and f N: where friction hardly moves the part, its velocities do not tell how far the series of T holds. Infinity
+/// without such a contact.
+double layer_force_step(const Segment& segment, double friction, double tolerance);
+
 /// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
 double pair_step(const PairSeries& series, int order, double tolerance);
 

@@ -36,7 +36,8 @@ struct Figure {
   enum class Kind { motion, curves, region };
   std::string name, title;
   Kind kind = Kind::motion;
-  Measure measure;   ///< what is drawn; of a motion only the study counts
+  Measure measure;              ///< what is drawn; of a motion only the study counts
+  bool with_tilt_rate = false;  ///< motions: the rate of the tilt has a panel too
   std::string mark;  ///< curves: condition on trials; points at which it holds often enough are marked; may be empty
 };
 

@@ -142,6 +142,7 @@ Figure read_figure(TreeReader reader) {
   figure.title = required_text(reader, "title", "must be the title of the figure");
   figure.measure.table.study = required_text(reader, "study", "must be the name of a study");
   if (reader.has("curves") && reader.has("region")) reader.fault("region", "there must be one of curves and region");
+  if (reader.has("with_tilt_rate")) figure.with_tilt_rate = reader.flag("with_tilt_rate").value_or(false);
   if (reader.has("curves") || reader.has("region")) {
     figure.measure.where = reader.text("where").value_or("");
     figure.measure.of = required_text(reader, "of", "must be a formula");

@@ -28,12 +28,20 @@ const NumberRule seed_rule = {"a whole number from 0 to 9007199254740992", 0.0, 
 /// The sequence of Sobol has 3667.
 constexpr std::size_t kMostCoordinates = 1000;
 
+void put_on_one_line(YAML::Node node) {
+  if (!node.IsMap() && !node.IsSequence()) return;
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  for (const auto& entry : node) put_on_one_line(node.IsMap() ? entry.second : YAML::Node(entry));
+}
+
 /// A value as YAML on one line; numbers as they stand in the file.
 std::string text_of(const YAML::Node& value) {
   if (value.IsNull()) return "null";
   if (value.IsScalar() && parse_number(value.Scalar())) return value.Scalar();
+  const YAML::Node copy = YAML::Clone(value);
+  put_on_one_line(copy);
   YAML::Emitter emitter;
-  emitter << YAML::Flow << value;
+  emitter << copy;
   return emitter.c_str();
 }
 
@@ -73,8 +81,11 @@ Study StudyReader::read() {
     TreeReader set = root_.section("set");
     for (const std::string& key : set.keys()) settings_.emplace_back(key, *set.value(key));
   }
-  if (root_.has("vary"))
+  if (root_.has("vary")) {
     for (TreeReader& entry : root_.sections("vary")) study_.dimensions.push_back(read_dimension(entry));
+    for (const Dimension& dimension : study_.dimensions)
+      if (dimension.keys.empty() && faults_.empty()) root_.fault("vary", "every entry must name a key");
+  }
   read_samples();
   root_.refuse_unknown_keys();
   if (faults_.empty()) refuse_too_many();

@@ -19,7 +19,7 @@ namespace {
 /// Follows the contacts of a trial, segment by segment. Dimensionless.
 class TouchLog {
  public:
-  explicit TouchLog(const Scene& scene) : system_(make_system(scene)) {}
+  explicit TouchLog(const System& system) : system_(system) {}
 
   void book(const Segment& segment) {
     for (std::size_t site = 0; site < kSiteCount; ++site) {
@@ -112,7 +112,7 @@ std::vector<Touch> touches_of(const Scene& scene) {
   SimulationOptions options;
   options.energy = false;
   Simulation simulation(scene, options);
-  TouchLog log(scene);
+  TouchLog log(simulation.system());
   while (simulation.advance()) log.book(simulation.segment());
   std::vector<Touch> touches = log.finish();
   for (Touch& touch : touches) scale(touch, output_units(scene));

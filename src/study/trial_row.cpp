@@ -19,7 +19,7 @@ std::size_t spot_index(Site site) { return static_cast<std::size_t>(spot_of(site
 /// Sums up impulses and times of contact, segment by segment. Dimensionless.
 class ContactTotals {
  public:
-  explicit ContactTotals(const Scene& scene) : system_(make_system(scene)) {}
+  explicit ContactTotals(const System& system) : system_(system) {}
 
   void book(const Segment& segment) {
     for (int i = 0; i < segment.loaded_count; ++i)
@@ -85,7 +85,7 @@ TrialRow run(const Scene& scene, const std::atomic<bool>* stop) {
   SimulationOptions options;
   options.energy = false;
   Simulation simulation(scene, options);
-  ContactTotals totals(scene);
+  ContactTotals totals(simulation.system());
   while ((stop == nullptr || !*stop) && simulation.advance()) totals.book(simulation.segment());
   return row_of(simulation.result(), totals, output_units(scene));
 }

@@ -1,26 +1,39 @@
 #include "trial/contact_impulse.h"
 
+#include <cmath>
+
 #include "mechanics/contact_frame.h"
 
 namespace vibratory_alignment {
 namespace {
 
-/// World components of a contact's force as series.
-void force_series(const ContactFrame& frame, bool turning, const ContactSeries& contact, const Segment& segment,
-                  Series& fx, Series& fy) {
-  for (int k = 0; k <= segment.order; ++k) {
-    // components along the frame's own axes
-    const double f1 = frame.n1 * contact.normal_force[k] + frame.t1() * contact.tangential_force[k];
-    const double f2 = frame.n2 * contact.normal_force[k] + frame.t2() * contact.tangential_force[k];
-    fx[k] = f1;
-    fy[k] = f2;
+/// Products that differ by less are the same but for rounding.
+constexpr double kSame = 1e-15;
+
+/// a + i b times c + i d.
+Pair product(const Pair& a, const Pair& b) { return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()}; }
+
+/// Integral of force times e1 = (cos phi, sin phi).
+Pair turned_integral(const Series& force, const Segment& segment, double from, double to) {
+  const int order = segment.order;
+  PairSeries e1;
+  for (int k = 0; k <= order; ++k) e1[k] = {segment.cos_phi[k], segment.sin_phi[k]};
+  Pair at_from(0.0, 0.0), at_to(0.0, 0.0);
+  for (int k = order; k >= 0; --k) {
+    const Pair term = kInverse[static_cast<std::size_t>(k + 1)] * product_term(e1, force, k);
+    at_from = at_from * from + term;
+    at_to = at_to * to + term;
   }
-  if (!turning) return;
-  const Series f1 = fx, f2 = fy;
-  for (int k = 0; k <= segment.order; ++k) {
-    fx[k] = product_term(f1, segment.cos_phi, k) - product_term(f2, segment.sin_phi, k);
-    fy[k] = product_term(f1, segment.sin_phi, k) + product_term(f2, segment.cos_phi, k);
-  }
+  return at_to * to - at_from * from;
+}
+
+/// True for sliding friction: T is a multiple of N throughout.
+bool is_proportional(const ContactSeries& contact, int order) {
+  const Series& n = contact.normal_force;
+  const Series& t = contact.tangential_force;
+  for (int k = 1; k <= order; ++k)
+    if (!(std::abs(t[k] * n[0] - n[k] * t[0]) <= kSame * std::abs(n[k] * t[0]))) return false;
+  return n[0] > 0.0;
 }
 
 }  // namespace
@@ -36,11 +49,22 @@ ContactImpulse& ContactImpulse::operator+=(const ContactImpulse& other) {
 ContactImpulse contact_impulse(const System& system, const Segment& segment, int i, double from, double to) {
   const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
   const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
-  Series fx{}, fy{};
-  force_series(contact_frame(system, face), is_part_face(face), contact, segment, fx, fy);
-  const int order = segment.order;
-  return {integral(contact.normal_force, order, from, to), integral(contact.tangential_force, order, from, to),
-          integral(fx, order, from, to), integral(fy, order, from, to)};
+  ContactImpulse impulse;
+  impulse.normal = integral(contact.normal_force, segment.order, from, to);
+  impulse.friction = integral(contact.tangential_force, segment.order, from, to);
+  // along the frame's first axis, which turns with the part or is that of the world
+  Pair normal(impulse.normal, 0.0), friction(impulse.friction, 0.0);
+  if (is_part_face(face)) {
+    normal = turned_integral(contact.normal_force, segment, from, to);
+    friction = is_proportional(contact, segment.order)
+                   ? Pair(contact.tangential_force[0] / contact.normal_force[0] * normal)
+                   : turned_integral(contact.tangential_force, segment, from, to);
+  }
+  const ContactFrame frame = contact_frame(system, face);
+  const Pair world = product({frame.n1, frame.n2}, normal) + product({frame.t1(), frame.t2()}, friction);
+  impulse.x = world.x();
+  impulse.y = world.y();
+  return impulse;
 }
 
 }  // namespace vibratory_alignment

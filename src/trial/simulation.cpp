@@ -207,6 +207,7 @@ void Simulation::cut(double t) { impl_->cut(t); }
 void Simulation::set_excitations(const std::vector<Excitation>& excitations) { impl_->set_excitations(excitations); }
 void Simulation::set_pressing_force(double pressing_force) { impl_->set_pressing_force(pressing_force); }
 const Scene& Simulation::scene() const { return impl_->scene_; }
+const System& Simulation::system() const { return impl_->system_; }
 double Simulation::time() const { return impl_->time_; }
 State Simulation::state() const { return impl_->state_; }
 bool Simulation::ended() const { return impl_->ended_; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "mechanics/system.h"
 #include "model/scene.h"
 #include "solver/segment.h"
 #include "trial/outcome.h"
@@ -41,6 +42,8 @@ class Simulation {
   void set_pressing_force(double pressing_force);
 
   const Scene& scene() const;
+  /// What the scene has become for the solver, at the start.
+  const System& system() const;
   /// End of what has been booked so far.
   double time() const;
   State state() const;

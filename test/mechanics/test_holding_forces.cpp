@@ -79,6 +79,77 @@ TEST(HoldingForces, tell_motions_apart_whose_mobilities_differ_by_far) {
   EXPECT_NEAR(answer.force[0] * 74.18 + answer.force[1] * 73.41, 0.0, 1e-8);
 }
 
+// The turning of a light part drowns its pull along x in V': forces that follow from V' would be wrong by a tenth.
+TEST(HoldingForces, follow_from_the_motion_that_they_hold) {
+  const double inertia = 9e-8, arm_1 = 86.5, arm_2 = 86.4, pull = 2e8, moment = 3e9;
+  const System system = part(inertia);
+  const HoldingForces holding = holding_of(system, {{{1.0, 0.0, arm_1}, {1.0, 0.0, arm_2}}}, 2);
+  const HoldingForces::Answer held = holding.hold_motion({{}, pull, 7.0, moment / inertia}, {});
+  // T1 + T2 = -pull, T1 r1 + T2 r2 = -moment
+  const double force_1 = (arm_2 * pull - moment) / (arm_1 - arm_2), force_2 = -pull - force_1;
+  EXPECT_NEAR(held.force[0], force_1, 1e-9 * std::abs(force_1));
+  EXPECT_NEAR(held.force[1], force_2, 1e-9 * std::abs(force_2));
+  EXPECT_NEAR(held.x, 0.0, 1e-15 * pull);
+  EXPECT_EQ(held.y, 7.0);
+  EXPECT_NEAR(held.phi, 0.0, 1e-15 * moment / inertia);
+}
+
+TEST(HoldingForces, hold_a_motion_that_V_has_rates_of_its_own_beside) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (const double inertia : {1e-8, 0.3, 1e3})
+    for (int count = 1; count <= 2; ++count) {
+      const System system = part(inertia);
+      HoldingForces::Rows rows;
+      Vector own{};
+      for (int i = 0; i < count; ++i) {
+        const double angle = 3.0 * number(random);
+        rows[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle), 40.0 * number(random)};
+        own[static_cast<std::size_t>(i)] = number(random);
+      }
+      const HoldingForces::Answer free{{}, number(random), number(random), number(random)};
+      const HoldingForces holding = holding_of(system, rows, count);
+      const HoldingForces::Answer held = holding.hold_motion(free, own);
+      for (int i = 0; i < count; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        EXPECT_NEAR(holding.left_over(i, {}, held) + own[index], 0.0, 1e-12) << inertia;
+      }
+      // what has changed is what the forces do, seen as energy: (change . M change) = T . J change
+      const double x = held.x - free.x, y = held.y - free.y, phi = held.phi - free.phi;
+      double power = 0.0;
+      for (int i = 0; i < count; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        power += held.force[index] * holding.left_over(i, {}, {{}, x, y, phi});
+      }
+      const double energy = x * x + y * y + inertia * phi * phi;
+      EXPECT_NEAR(power, energy, 1e-9 * energy) << inertia;
+    }
+}
+
+TEST(HoldingForces, leave_a_part_that_is_wholly_held_at_rest) {
+  System system = part(1.0);
+  system.x.inverse_inertia = system.phi.inverse_inertia = 0.0;
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const double angle = 3.0 * number(random);
+    const HoldingForces holding = holding_of(system, {{{std::cos(angle), std::sin(angle), number(random)}}}, 1);
+    EXPECT_EQ(holding.hold_motion({{}, 0.0, number(random), 0.0}, {}).y, 0.0) << trial;
+  }
+}
+
+TEST(HoldingForces, of_contacts_that_count_as_the_same_are_so_to_the_last_digit) {
+  for (const double off : {0.0, 1e-9, 1e-6}) {
+    const HoldingForces holding =
+        holding_of(part(0.3), {{{1.0, 0.0, 80.0}, {0.0, 1.0, 1.0}, {1.0, 0.0, 80.0 + off}}}, 3);
+    const HoldingForces::Answer answer = holding.hold({0.4, 0.1, 0.4}, {1e-3, 1e-3, 1e-3});
+    EXPECT_EQ(answer.force[0], answer.force[2]) << off;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(holding.left_over(i, {0.4, 0.1, 0.4}, answer), 0.0, off * std::abs(answer.phi) + 1e-14);
+    }
+  }
+}
+
 TEST(HoldingForces, share_equally_where_contacts_hold_the_same_motion) {
   for (const double inertia : {1e-8, 1e-2, 1e6}) {
     const HoldingForces holding = holding_of(part(inertia), {{{1.0, 0.0, 80.0}, {1.0, 0.0, 80.0}}}, 2);

@@ -59,7 +59,7 @@ bool is_finite(const Sample& sample) {
 int in_own_process(Scene scene) {
   const rlimit seconds{20, 20};  // of processor time: the machine may have other work
   setrlimit(RLIMIT_CPU, &seconds);
-  scene.solver.step_limit = 20000;
+  scene.solver.step_limit = 5000;
   const TrialResult result = run(scene);
   Simulation simulation(scene);
   Sampler sampler(simulation, 0.01 * scene.trial.time_limit, true);

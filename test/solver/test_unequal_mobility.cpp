@@ -243,6 +243,48 @@ initial: {x: -0.054, y: 107.88622562020505, phi: -1.5212534524789711, vx: -2e-05
 trial: {time_limit: 1, aligned_depth: 0}
 solver: {name: event, tolerance: 1.5e-11, step_limit: 1000}
 )"},
+      {"level_corners_parted_by_a_small_moment", R"(
+part: {half_width: 0.3, base_distance: 1, inertia: 0.002}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0, phi: 0.1}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0.01}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 7e+03}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [walls]
+friction: {coefficient: 1}
+weight: 6e+01
+excitation:
+  - {amplitude: 1, frequency: 1, phase: -8, direction: y, waveform: sine}
+initial: {x: 0, phi: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.05, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"four_contacts_deep_inside", R"(
+part: {half_width: 0.36481262613871074, base_distance: 88.04084995803316, inertia: 9e-08}
+slot: {clearance: 9e-06, depth: 59.331983443462185}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 275267.2783241758, y: 8.2e+04}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [corners, walls]
+friction: {coefficient: 4.7}
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.799417228414428, y: -221.7, phi: 0.1897390023438234, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 1e-04, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"side_that_holds_all_that_moves", R"(
+part: {half_width: 0.2, base_distance: 0.1}
+slot: {clearance: 0.05}
+gripper: {stiffness: {}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1e+08, y: 1e+08}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [edges]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: -4e+01, frequency: 0.1151, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.04, y: 0.1532, phi: -1.2901409248417814, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 1.2, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
       {"one_of_two_corners_slides", R"(
 part: {half_width: 0.8, base_distance: 0.4, inertia: 1e-08}
 slot: {clearance: 6e-05}
@@ -343,6 +385,35 @@ TEST_P(UnequalMobility, is_mirrored_in_the_mirrored_scene) {
   const State& q = one.final_state;
   const double size = 1.0 + std::abs(q.x) + std::abs(q.y) + std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega);
   EXPECT_LE(test::distance(q, test::mirrored(other.final_state)), 1e-5 * size);
+}
+
+/// Those in which the implicit steps have contacts to hold, and end in time.
+std::vector<test::NamedScene> held_cases() {
+  std::vector<test::NamedScene> held;
+  for (const char* name : {"corners_sharing_for_long", "corners_far_below_a_light_part",
+                           "corner_on_the_floor_held_by_the_wall", "edge_and_corner_of_a_narrow_part",
+                           "level_corners_of_high_friction", "corners_of_a_part_that_turns_at_once",
+                           "one_of_two_corners_slides"})
+    for (const test::NamedScene& scene : cases())
+      if (scene.name == name) held.push_back(scene);
+  return held;
+}
+
+class UnequalMobilityImplicit : public UnequalMobility {};
+INSTANTIATE_TEST_SUITE_P(scene, UnequalMobilityImplicit, testing::ValuesIn(held_cases()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(UnequalMobilityImplicit, ends_as_the_series_do) {
+  Scene by_steps = scene();
+  by_steps.solver.name = "implicit";
+  by_steps.solver.step_limit = 10000;
+  Scene by_series = scene();
+  by_series.solver.step_limit = 20000;
+  const TrialResult one = test::run(by_series), other = test::run(by_steps);
+  EXPECT_NE(other.outcome, Outcome::failed) << other.failure;
+  const State& q = one.final_state;
+  const double size = 1.0 + std::abs(q.x) + std::abs(q.y) + std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega);
+  EXPECT_LE(test::distance(q, other.final_state), 1e-6 * size);
 }
 
 }  // namespace

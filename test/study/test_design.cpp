@@ -67,6 +67,10 @@ TEST(Grid, WordsListsMapsAndNullAreValuesToo) {
   const Study study = study_of(
       "vary: [{solver.name: [event, implicit]}, {contacts: [[edges], [edges, corners]]},"
       " {friction: [null, {coefficient: 0.1}]}]");
+  // lists and maps of several lines come to one as well
+  const Study lines = study_of("vary:\n  - contacts:\n    - - edges\n      - corners\n  - friction:\n    -\n      coefficient: 0.3\n");
+  EXPECT_EQ(values_at(lines, 0)[0].text, "[edges, corners]");
+  EXPECT_EQ(values_at(lines, 0)[1].text, "{coefficient: 0.3}");
   const std::vector<VariedValue> last = values_at(study, 7);
   EXPECT_EQ(last[0].text, "implicit");
   EXPECT_EQ(YAML::Load(last[1].text)[1].Scalar(), "corners");

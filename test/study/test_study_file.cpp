@@ -72,7 +72,7 @@ TEST(StudyFile, FaultsAreRefusedAtTheirPlace) {
       {"vary: [{initial.x: [1]}, {initial.x: [2]}]", "vary.1.initial.x: ", "twice"},
       {"vary: [{gripper.stiffness.phi: [1]}, {gripper.stiffness: [{phi: 2}]}]", "vary.1.gripper.stiffness: ", "part of"},
       {"vary: []", "vary: ", "list of at least one"},
-      {"vary: [{}]", "vary.0: ", "at least one key"},
+      {"vary: [{}]", "vary: ", "must name a key"},
       {"set: {initial.x.y: 3}", "set.initial.x.y: ", "neither a map nor a list"},
       {"set: {nosuch: null}", "set.nosuch: ", "no such key"},
       {"vary: [{initial.x: {from: 0, to: 1, count: 1000000000}}, {initial.phi: {from: 0, to: 1, count: 10000000}}]", "vary: ", "1e15"},

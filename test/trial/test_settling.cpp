@@ -41,7 +41,7 @@ Scene mismatched_scene(unsigned seed) {
 
 TEST(Settling, what_has_stalled_never_aligns) {
   int stalled = 0, others = 0;
-  for (unsigned seed = 1; seed <= 150; ++seed) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
     const Scene scene = mismatched_scene(seed);
     const TrialResult first = run(scene);
     if (first.outcome != Outcome::stalled) {
@@ -54,8 +54,8 @@ TEST(Settling, what_has_stalled_never_aligns) {
     // and it is where it was
     EXPECT_LT(std::abs(again.final_state.x - first.final_state.x), 0.05) << "seed " << seed;
   }
-  EXPECT_GT(stalled, 15);
-  EXPECT_GT(others, 15);
+  EXPECT_GT(stalled, 5);
+  EXPECT_GT(others, 5);
 }
 
 /// A block that is carried along by 4 f N/k_x less every cycle of a Coulomb oscillator has not settled until it rests.

@@ -1,0 +1,148 @@
+#include "cli/figure_files.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "cli/errors.h"
+#include "model/number_text.h"
+#include "model/scaling.h"
+#include "study/trial_scenes.h"
+#include "trial/sampler.h"
+#include "trial/simulation.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kSamplesPerPeriod = 60.0;  ///< of the fastest excitation
+
+/// Curves in the paper's order and pairing: the panels a to f, with the rate of the tilt a to g.
+const json kPanels = {{"x"}, {"y"}, {"vx"}, {"vy"}, {"phi"}, {"n1", "n2"}};
+const json kPanelsWithRate = {{"x"}, {"y"}, {"vx"}, {"vy"}, {"phi"}, {"omega"}, {"n1", "n2"}};
+
+class CsvFile {
+ public:
+  CsvFile(const std::filesystem::path& path, const std::string& header) : path_(path), file_(path) {
+    file_ << header << '\n';
+  }
+
+  void line(const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      file_ << (i == 0 ? "" : ",") << (std::isnan(values[i]) ? "" : number_text(values[i]));
+    file_ << '\n';
+  }
+
+  void finish() {
+    file_.close();
+    if (!file_) throw OutputError(path_.string(), std::strerror(errno));
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+};
+
+/// Of the first trial of the study.
+void write_motion(const std::filesystem::path& path, const Study& study) {
+  const Scene scene = TrialScenes(study).at(0);
+  const OutputUnits units = output_units(scene);
+  double fastest = 0.0;
+  for (const Excitation& excitation : scene.excitations)
+    fastest = std::max({fastest, excitation.frequency, excitation.end_frequency});
+  SimulationOptions options;
+  options.energy = false;
+  Simulation simulation(scene, options);
+  Sampler sampler(simulation, 2.0 * M_PI / fastest / kSamplesPerPeriod, true);
+  CsvFile file(path, "t,x,y,phi,vx,vy,omega,n1,n2");
+  Sample sample;
+  while (sampler.next(sample)) {
+    const State& s = sample.state;
+    const auto force = [&](Site site) {
+      return sample.contacts[static_cast<std::size_t>(site)].normal_force * units.force;
+    };
+    file.line({sample.time * units.time, s.x * units.length, s.y * units.length, s.phi, s.vx * units.velocity,
+               s.vy * units.velocity, s.omega * units.angular_velocity, force(Site::a1), force(Site::a2)});
+  }
+  if (simulation.result().outcome == Outcome::failed)
+    throw std::runtime_error(study.name + ": the trial failed: " + simulation.result().failure);
+  file.finish();
+}
+
+void write_curves(const std::filesystem::path& path, const Figure& figure, const Tables& tables) {
+  const std::vector<Curve> curves = curves_of(figure.measure, tables);
+  std::vector<Curve> marks;
+  if (!figure.mark.empty()) marks = curves_of(marks_of(figure), tables);
+  std::string header;
+  for (const std::string& name : figure.measure.curves.each) header += name + ",";
+  CsvFile file(path, header + figure.measure.curves.along + ",median,low,high,share,mark");
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    for (std::size_t p = 0; p < curves[c].points.size(); ++p) {
+      const CurvePoint& point = curves[c].points[p];
+      std::vector<double> values = curves[c].each;
+      const double mark = marks.empty() ? 1.0 : marks[c].points[p].value;
+      for (const double value : {point.at, point.value, point.low, point.high, point.share, mark})
+        values.push_back(value);
+      file.line(values);
+    }
+  }
+  file.finish();
+}
+
+void write_region(const std::filesystem::path& path, const Figure& figure, const Tables& tables) {
+  const Field field = field_of(figure.measure, tables);
+  CsvFile file(path, figure.measure.region.x + "," + figure.measure.region.y + ",share");
+  for (std::size_t i = 0; i < field.x.size(); ++i)
+    for (std::size_t j = 0; j < field.y.size(); ++j) file.line({field.x[i], field.y[j], field.at(i, j)});
+  file.finish();
+}
+
+json description(const Figure& figure) {
+  json text = {{"name", figure.name}, {"title", figure.title}};
+  switch (figure.kind) {
+    case Figure::Kind::motion:
+      text["kind"] = "motion";
+      text["panels"] = figure.with_tilt_rate ? kPanelsWithRate : kPanels;
+      break;
+    case Figure::Kind::curves:
+      text["kind"] = "curves";
+      text["of"] = figure.measure.of;
+      text["along"] = figure.measure.curves.along;
+      text["each"] = figure.measure.curves.each;
+      text["share"] = figure.measure.curves.share;
+      break;
+    case Figure::Kind::region:
+      text["kind"] = "region";
+      text["x"] = figure.measure.region.x;
+      text["y"] = figure.measure.region.y;
+      text["share"] = figure.measure.region.share;
+      break;
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_figure_files(const std::filesystem::path& folder, const FactBook& book,
+                        const std::map<std::string, Study>& studies, const Tables& tables) {
+  json descriptions = json::array();
+  for (const Figure& figure : book.figures) {
+    const std::filesystem::path path = folder / (figure.name + ".csv");
+    switch (figure.kind) {
+      case Figure::Kind::motion: write_motion(path, studies.at(figure.measure.table.study)); break;
+      case Figure::Kind::curves: write_curves(path, figure, tables); break;
+      case Figure::Kind::region: write_region(path, figure, tables); break;
+    }
+    descriptions.push_back(description(figure));
+  }
+  std::ofstream file(folder / "figures.json");
+  file << descriptions.dump(2) << '\n';
+  file.close();
+  if (!file) throw OutputError((folder / "figures.json").string(), std::strerror(errno));
+}
+
+}  // namespace vibratory_alignment

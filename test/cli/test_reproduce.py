@@ -1,0 +1,121 @@
+"""`align reproduce`: ledger and figures of a facts file, on a small study of its own and on the shipped one."""
+
+import csv
+import json
+import os
+import unittest
+
+from align_test_case import SMALL_SCENE, AlignTestCase
+
+STUDY = """
+scene: small.yaml
+set: {trial.time_limit: 8}
+vary:
+  - gripper.pressing_force: [0.2, 0.4, 5]
+  - excitation.phase: {from: 0, to: 6}
+samples: {count: 4, seed: 1}
+"""
+
+FACTS = """
+studies: .
+facts:
+  - id: A
+    says: A part that is pressed with five times the excitation keeps contact.
+    why: That is what the mode says.
+    expected: met
+    measures:
+      - {name: share, study: small, where: gripper.pressing_force == 5, of: nonimpact, rows: {take: share},
+         at_least: 1, scale: 1}
+  - id: B
+    says: Every part bounces.
+    why: It does not.
+    expected: missed
+    measures:
+      - {name: share, study: small, of: impact, rows: {take: share}, at_least: 1, scale: 1}
+figures:
+  - {name: motion, title: Motion, study: small}
+  - {name: curve, title: Curve, study: small, of: peak_force.a1, curves: {along: gripper.pressing_force}}
+"""
+
+
+class ReproduceTest(AlignTestCase):
+    def reproduce(self, *arguments, facts=FACTS):
+        self.scene("small.yaml")
+        os.replace(self.path("small.yaml"), self.path("scene.yaml"))
+        self.write("small.yaml", STUDY.replace("small.yaml", "scene.yaml"))
+        file = self.write("facts.yaml", facts)
+        return self.align("reproduce", "--facts", file, "--output", self.path("out"), *arguments)
+
+    def ledger(self):
+        with open(self.path("out/ledger.json")) as file:
+            return json.load(file)["facts"]
+
+    def test_writes_ledger_and_figures(self):
+        process = self.reproduce()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        first, second = self.ledger()
+        self.assertTrue(first["met"])
+        self.assertFalse(second["met"])
+        self.assertEqual(first["measures"][0]["value"], 1.0)
+        # of the three pressing forces at most two let the part bounce
+        self.assertLessEqual(second["measures"][0]["value"], 2 / 3)
+        self.assertIn("1 of 2 facts met", process.stdout)
+        with open(self.path("out/ledger.md")) as file:
+            self.assertIn("| A | A part that is pressed", file.read())
+        with open(self.path("out/curve.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["gripper.pressing_force"]) for row in rows], [0.2, 0.4, 5.0])
+        for row in rows:
+            self.assertLessEqual(float(row["low"]), float(row["median"]))
+            self.assertLessEqual(float(row["median"]), float(row["high"]))
+        for name in ("motion.svg", "motion.png", "curve.svg", "curve.png"):
+            self.assertGreater(os.path.getsize(self.path("out/" + name)), 1000, name)
+
+    def test_motion_is_that_of_the_trial(self):
+        self.reproduce("--no-pictures")
+        with open(self.path("out/motion.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), ["t", "x", "y", "phi", "vx", "vy", "omega", "n1", "n2"])
+        self.assertEqual(float(rows[0]["t"]), 0.0)
+        self.assertEqual(float(rows[0]["x"]), SMALL_SCENE["initial"]["x"])
+        self.assertFalse(os.path.exists(self.path("out/motion.png")))
+
+    def test_check_fails_only_for_what_was_expected(self):
+        self.assertEqual(self.reproduce("--check", "--no-pictures").returncode, 0)
+        process = self.reproduce("--check", "--no-pictures", facts=FACTS.replace("expected: missed", "expected: met"))
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("expected to be met, and missed: B", process.stderr)
+
+    def test_threads_change_nothing(self):
+        texts = []
+        for threads in ("1", "3"):
+            self.reproduce("--threads", threads, "--no-pictures")
+            with open(self.path("out/ledger.json")) as file:
+                texts.append(file.read())
+        self.assertEqual(texts[0], texts[1])
+
+    def test_settings_go_to_every_trial(self):
+        self.reproduce("--set", "excitation.amplitude=0.01", "--no-pictures")
+        self.assertEqual(self.ledger()[1]["measures"][0]["value"], 0.0)
+
+    def test_one_figure_alone(self):
+        self.assertEqual(self.reproduce("curve", "--no-pictures").returncode, 0)
+        self.assertTrue(os.path.exists(self.path("out/curve.csv")))
+        self.assertFalse(os.path.exists(self.path("out/motion.csv")))
+
+    def test_refuses_what_it_does_not_know(self):
+        process = self.reproduce("fig9")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("FIGURE: fig9: there is no such figure; there are motion, curve", process.stderr)
+        process = self.reproduce(facts=FACTS.replace("of: impact", "of: impacts"))
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("B: share: of: impacts", process.stderr)
+        process = self.reproduce(facts=FACTS.replace("expected: missed", "expected: perhaps"))
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("facts.1.expected: perhaps: must be met or missed", process.stderr)
+        process = self.align("reproduce", "--facts", self.path("none.yaml"))
+        self.assertEqual(process.returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
