@@ -131,8 +131,11 @@ class Search {
     optimizer.set_lower_bounds(std::vector<double>(dimension, 0.0));
     optimizer.set_upper_bounds(std::vector<double>(dimension, 1.0));
     optimizer.set_maxeval(static_cast<int>(evaluations));
+    std::size_t looked_at = 0;
     const std::function<double(const std::vector<double>&)> objective = [&](const std::vector<double>& point) {
-      if (!tally_.go_on()) throw nlopt::forced_stop();
+      // NLopt itself may look at a few more
+      if (!tally_.go_on() || looked_at == evaluations) throw nlopt::forced_stop();
+      ++looked_at;
       return look_at(point, most());
     };
     using Objective = std::function<double(const std::vector<double>&)>;
@@ -144,6 +147,8 @@ class Search {
       optimizer.optimize(shares, least);
     } catch (const nlopt::roundoff_limited&) {
       // as near as it gets
+    } catch (const nlopt::forced_stop&) {
+      if (tally_.ended()) throw;
     }
   }
 
