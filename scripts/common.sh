@@ -24,7 +24,7 @@ build_packages=(
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libstd-srvs-dev ros-std-srvs
   libtf2-ros-dev libtf2-geometry-msgs-dev libtf2-msgs-dev ros-tf2-msgs libvisualization-msgs-dev ros-visualization-msgs
   libboost-dev libeigen3-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libode-dev
-  libmuparser-dev
+  libmuparser-dev libnlopt-cxx-dev
 )
 run_packages=(
   rosbash python3-roslaunch python3-rospy python3-rostopic python3-rosnode python3-rosservice python3-rosmsg

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/accuracy_command.h"
+#include "cli/calibrate_command.h"
 #include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/merge_command.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr Command kCommands[] = {
     {"accuracy", "Show what accuracy costs in time: every solver on one scene", set_up_accuracy},
+    {"calibrate", "Search for values such that given facts hold", set_up_calibrate},
     {"merge", "Put the files of a sweep's shards together", set_up_merge},
     {"reproduce", "Draw the paper's figures, and check what it states against them", set_up_reproduce},
     {"sweep", "Run the trials of a study: many, with varied values", set_up_sweep},

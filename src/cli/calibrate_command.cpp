@@ -1,0 +1,107 @@
+#include "cli/calibrate_command.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "cli/calibration_report.h"
+#include "cli/errors.h"
+#include "cli/interrupt.h"
+#include "cli/output_path.h"
+#include "cli/scene_path.h"
+#include "study/calibration.h"
+#include "study/calibration_file.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr char kFooter[] = R"(Examples:
+  align calibrate config/paper/calibration.yaml --report calibration.md
+  align calibrate my_search.yaml --threads 8
+
+A calibration file names facts, the values that are searched for with their ranges, and what they are in the scenes
+(docs/studies.md). The search is the same whatever the threads; one thread runs one search. It takes from minutes to
+hours: every half minute a line on stderr tells how far it is.
+Exit status: 0 it ran; 1 it failed while running; 2 bad usage or bad file; interrupted: 128 + the signal.)";
+
+constexpr double kSecondsBetweenLines = 30.0;
+
+struct Options {
+  std::string file, report;
+  int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+};
+
+/// Tells now and then how far the search is.
+class ProgressLines {
+ public:
+  void update(const CalibrationProgress& progress) {
+    const auto now = Clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kSecondsBetweenLines));
+    const double seconds = std::chrono::duration<double>(now - begin_).count();
+    std::fprintf(stderr, "%6.0f s: %zu of at most %zu sets, %zu trials; best: shortfall %.3f, %zu facts met\n", seconds,
+                 progress.evaluations, progress.all_evaluations, progress.trials, progress.best_shortfall,
+                 progress.best_met);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now(), next_ = begin_;
+};
+
+int run_calibrate(const Options& options) {
+  const Calibration calibration = load_calibration(options.file);
+  std::unique_ptr<OutputPath> report;
+  if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);
+
+  ProgressLines lines;
+  const InterruptGuard interrupt;
+  CalibrationOptions run;
+  run.threads = options.threads;
+  run.find_scene = find_scene;
+  run.progress = [&](const CalibrationProgress& progress) { lines.update(progress); };
+  run.go_on = [&] { return interrupt.signal() == 0; };
+  CalibrationResult result;
+  try {
+    result = run_calibration(calibration, run);
+  } catch (const std::runtime_error&) {
+    if (interrupt.signal() == 0) throw;
+    std::fprintf(stderr, "align: interrupted; nothing is reported or written\n");
+    return 128 + interrupt.signal();
+  }
+  if (!report) {
+    write_calibration_report(std::cout, calibration, result);
+    std::cout << std::flush;
+    if (!std::cout) throw OutputError("stdout", "the report is lost");
+    return kExitRan;
+  }
+  std::ofstream file(report->temporary());
+  write_calibration_report(file, calibration, result);
+  file.close();
+  if (!file) throw OutputError(report->path(), std::strerror(errno));
+  report->commit();
+  return kExitRan;
+}
+
+}  // namespace
+
+std::function<int()> set_up_calibrate(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.footer(kFooter);
+  app.add_option("CALIBRATION", options->file, "Calibration file (YAML)")->required();
+  app.add_option("--threads", options->threads, "Searches that run at the same time. Default: the processors")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  app.add_option("--report", options->report, "Write the report (Markdown) to this file instead of stdout")
+      ->type_name("FILE");
+  return [options] { return run_calibrate(*options); };
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,93 @@
+#include "study/calibration_file.h"
+
+#include <filesystem>
+
+#include "model/scene_loader.h"
+#include "model/tree_reader.h"
+
+namespace vibratory_alignment {
+namespace {
+
+const std::vector<std::string> spacing_words = {"linear", "log"};
+
+CalibrationParameter read_parameter(TreeReader reader, const std::string& name) {
+  CalibrationParameter parameter;
+  parameter.name = name;
+  parameter.logarithmic = reader.choice("spacing", spacing_words).value_or(0) == 1;
+  const NumberRule& rule = parameter.logarithmic ? positive_number : any_number;
+  parameter.from = reader.required_number("from", rule);
+  parameter.to = reader.required_number("to", rule);
+  if (!(parameter.from < parameter.to)) reader.fault("to", "must be above `from`");
+  parameter.start = reader.required_number("start", rule);
+  if (parameter.start < parameter.from || parameter.start > parameter.to)
+    reader.fault("start", "must be from `from` to `to`");
+  reader.refuse_unknown_keys();
+  return parameter;
+}
+
+/// Study (or "all") -> key path -> formula.
+CalibrationSettings read_settings(TreeReader reader, const std::vector<std::string>& studies) {
+  CalibrationSettings settings;
+  for (const std::string& study : studies) {
+    TreeReader keys = reader.section(study);
+    for (const std::string& key : keys.keys()) settings[study].emplace_back(key, keys.text(key).value_or(""));
+  }
+  reader.refuse_unknown_keys();
+  return settings;
+}
+
+std::size_t read_count(TreeReader& reader, const char* key) {
+  return static_cast<std::size_t>(reader.required_number(key, positive_whole_number));
+}
+
+CalibrationSearch read_search(TreeReader reader) {
+  CalibrationSearch search;
+  search.searches = read_count(reader, "searches");
+  search.population = read_count(reader, "population");
+  search.global_evaluations = read_count(reader, "global_evaluations");
+  search.local_evaluations = read_count(reader, "local_evaluations");
+  search.finalists = read_count(reader, "finalists");
+  TreeReader thinning = reader.section("thinning");
+  search.thinning.samples = read_count(thinning, "samples");
+  search.thinning.grid = read_count(thinning, "grid");
+  thinning.refuse_unknown_keys();
+  search.leave_out = reader.texts("leave_out");
+  reader.refuse_unknown_keys();
+  return search;
+}
+
+}  // namespace
+
+Calibration load_calibration(const std::string& path) {
+  TreeReader::Faults faults;
+  TreeReader root(read_yaml_file(path), "", faults);
+  Calibration calibration;
+  calibration.source = path;
+  if (!root.has("facts")) root.fault("facts", "must be the name of a facts file, from the folder of this file");
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  calibration.facts_file = (folder / root.text("facts").value_or("")).lexically_normal().string();
+
+  TreeReader parameters = root.section("parameters");
+  for (const std::string& name : parameters.keys())
+    calibration.parameters.push_back(read_parameter(parameters.section(name), name));
+  if (calibration.parameters.empty()) root.fault("parameters", "must name at least one parameter");
+
+  TreeReader settings = root.section("settings");
+  calibration.settings = read_settings(settings, settings.keys());
+  for (TreeReader& reading : root.sections("readings")) {
+    CalibrationReading read;
+    read.name = reading.line("name").value_or("as printed");
+    if (reading.has("settings")) {
+      TreeReader own = reading.section("settings");
+      read.settings = read_settings(own, own.keys());
+    }
+    reading.refuse_unknown_keys();
+    calibration.readings.push_back(std::move(read));
+  }
+  calibration.search = read_search(root.section("search"));
+  root.refuse_unknown_keys();
+  if (!faults.empty()) throw SceneError(path, faults);
+  return calibration;
+}
+
+}  // namespace vibratory_alignment

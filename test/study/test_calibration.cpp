@@ -1,0 +1,147 @@
+// Calibration finds values whose answer is known, and always the same ones.
+#include "study/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/scene_loader.h"
+#include "study/calibration_file.h"
+#include "study_text.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// A part that can only move up and down hits a base without damping with v = 2: the largest force is
+/// v sqrt(C1 + 1) - 1 ... + 1 (the gripper's spring, k = 1, and its press below 1), so that 200 is met by C1 = 1e4
+/// within 2 %.
+constexpr char scene[] = R"(
+part: {half_width: 0.7, base_distance: 0.9}
+slot: {clearance: 0.09}
+gripper: {pressing_force: 0.1}
+base: {stiffness: {y: 500}}
+contacts: [edges]
+excitation: {amplitude: 0, frequency: 10}
+initial: {x: 0.2, vy: -2}
+trial: {time_limit: 0.2}
+)";
+
+constexpr char facts[] = R"(
+studies: .
+facts:
+  - id: P
+    says: The largest force is 200.
+    why: As it says.
+    expected: met
+    measures:
+      - {name: largest force, study: blow, of: peak_force.a1, rows: {take: max}, at_least: 199.8, at_most: 200.2, scale: 100}
+  - id: E
+    says: The trial ends.
+    why: As it says.
+    expected: met
+    measures:
+      - {name: end, study: blow, of: end_time, rows: {take: max}, at_least: 0, scale: 1}
+)";
+
+constexpr char calibration_text[] = R"(
+facts: facts.yaml
+parameters:
+  C1: {from: 100, to: 1.0e+6, spacing: log, start: 500}
+settings:
+  all: {base.stiffness.y: C1}
+readings:
+  - {name: as it is}
+  - {name: heavier, settings: {blow: {weight: 0.05 * 2}}}
+search: {searches: 2, population: 8, global_evaluations: 40, local_evaluations: 40, finalists: 2, thinning: {samples: 1, grid: 1}}
+)";
+
+class CalibrationFiles {
+ public:
+  explicit CalibrationFiles(const std::string& text = calibration_text) {
+    folder_.write("scene.yaml", scene);
+    folder_.write("blow.yaml", "scene: scene.yaml\n");
+    folder_.write("facts.yaml", facts);
+    path_ = folder_.write("calibration.yaml", text);
+  }
+  CalibrationResult run(int threads) const {
+    CalibrationOptions options;
+    options.threads = threads;
+    options.find_scene = [](const std::string& name) { return name; };
+    return run_calibration(load_calibration(path_), options);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  test::Folder folder_;
+  std::string path_;
+};
+
+TEST(Calibration, finds_the_stiffness_of_a_known_blow) {
+  const CalibrationResult result = CalibrationFiles().run(1);
+  ASSERT_EQ(result.best.size(), 4u);
+  EXPECT_EQ(result.best.front().shortfall, 0.0);
+  EXPECT_EQ(result.best.front().met(), 2u);
+  EXPECT_NEAR(result.best.front().values.front(), 1e4, 200.0);
+}
+
+TEST(Calibration, is_the_same_in_any_number_of_threads) {
+  const CalibrationFiles files;
+  const CalibrationResult one = files.run(1), three = files.run(3);
+  ASSERT_EQ(one.best.size(), three.best.size());
+  for (std::size_t i = 0; i < one.best.size(); ++i) EXPECT_EQ(one.best[i].values, three.best[i].values) << i;
+  EXPECT_EQ(one.evaluations, three.evaluations);
+  EXPECT_EQ(one.trials, three.trials);
+  EXPECT_EQ(one.sets_that_meet, three.sets_that_meet);
+}
+
+TEST(Calibration, counts_what_it_looks_at) {
+  const CalibrationResult result = CalibrationFiles().run(1);
+  EXPECT_EQ(result.evaluations, result.trials);  // one trial a set
+  EXPECT_LE(result.evaluations, 4u * 80u);
+  EXPECT_GT(result.evaluations, 4u * 8u);
+}
+
+TEST(Calibration, puts_the_formulas_of_a_reading_after_the_others) {
+  const Calibration calibration = load_calibration(CalibrationFiles().path());
+  const FactSettings settings = settings_of(calibration, calibration.readings[1], {250.0});
+  EXPECT_EQ(settings.all, (std::vector<std::string>{"base.stiffness.y=250"}));
+  EXPECT_EQ(settings.of_study.at("blow"), (std::vector<std::string>{"weight=0.10000000000000001"}));
+}
+
+TEST(CalibrationParameter, covers_its_range) {
+  const CalibrationParameter log{"k", 10.0, 1000.0, true, 100.0}, linear{"f", 1.0, 3.0, false, 2.0};
+  EXPECT_NEAR(log.value_at(0.5), 100.0, 1e-12);
+  EXPECT_NEAR(log.share_of(100.0), 0.5, 1e-15);
+  EXPECT_EQ(linear.value_at(0.5), 2.0);
+  EXPECT_EQ(linear.share_of(3.0), 1.0);
+}
+
+/// The message of a calibration file in which `from` stands for `to`.
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = calibration_text;
+  text.replace(text.find(from), from.size(), to);
+  try {
+    CalibrationFiles(text).run(1);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CalibrationFile, names_what_is_wrong) {
+  const auto says = [](const std::string& message, const std::string& part) {
+    return message.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(
+      says(refusal("from: 100, to: 1.0e+6", "from: 100, to: 50"), "parameters.C1.to: 50: must be above `from`"));
+  EXPECT_TRUE(says(refusal("start: 500", "start: 5"), "parameters.C1.start: 5: must be from `from` to `to`"));
+  EXPECT_TRUE(says(refusal("spacing: log", "spacing: cubic"), "parameters.C1.spacing: cubic"));
+  EXPECT_TRUE(says(refusal("population: 8, ", ""), "search.population"));
+  EXPECT_TRUE(says(refusal("population: 8", "population: 0"), "search.population: 0"));
+  EXPECT_TRUE(says(refusal("readings:", "reading:"), "reading"));
+  EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.settings.blew: must be `all` or a study of"));
+  EXPECT_TRUE(says(refusal("finalists: 2,", "finalists: 2, leave_out: [Q],"), "search.leave_out: Q: must be the id"));
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
