@@ -11,26 +11,36 @@ namespace {
 /// A sliding velocity this small, relative to the speeds it is made of, is zero.
 constexpr double kZeroSlip = 1e-14;
 
-/// Speeds that the sliding velocities are made of.
+/// Motions whose rates a sliding velocity may be the rest of.
+using Motions = std::array<State, 3>;
+
+/// Speeds that the sliding velocity of a contact is made of, at most.
+double slip_scale(const ContactKinematics& k, const Motions& motions) {
+  const double arm = k.lever.x * k.tangent.y - k.lever.y * k.tangent.x;
+  double largest = 0.0;
+  for (const State& s : motions)
+    largest = std::max(largest, std::abs(k.tangent.x * s.vx) + std::abs(k.tangent.y * s.vy) + std::abs(arm * s.omega));
+  return largest;
+}
+
+/// Speeds of the part.
 double speed_scale(const System& system, const State& state) {
   return std::abs(state.vx) + std::abs(state.vy) +
          std::abs(state.omega) * (system.half_width + system.base_distance + system.slot_half_width);
 }
 
-/// Speed gained at the acceleration of the segment's start.
-double speed_gain(const System& system, const Segment& segment) {
-  if (segment.flight != nullptr) return 0.0;
+/// Rates gained at the acceleration of the segment's start.
+State gain_of(const Segment& segment) {
   State gain;
+  if (segment.flight != nullptr) return gain;
   gain.vx = segment.duration * segment.vx[1];
   gain.vy = segment.duration * segment.vy[1];
   gain.omega = segment.duration * segment.omega[1];
-  return speed_scale(system, gain);
+  return gain;
 }
 
-/// Likewise over a segment: what comes to rest at its end was moving before.
-double speed_scale(const System& system, const Segment& segment) {
-  return std::max({speed_scale(system, segment.begin), speed_scale(system, segment.end), speed_gain(system, segment)});
-}
+/// What comes to rest at the end of a segment was moving before.
+Motions motions_of(const Segment& segment) { return {segment.begin, segment.end, gain_of(segment)}; }
 
 /// A friction force this near to its limit, relative to it, is at the limit.
 constexpr double kAtLimit = 1e-2;
@@ -40,7 +50,7 @@ constexpr double kInstant = 1e-15, kNoChange = 1e-9;
 
 bool is_instant(const System& system, const Segment& segment) {
   if (segment.duration > kInstant) return false;
-  return speed_gain(system, segment) <= kNoChange * speed_scale(system, segment.begin);
+  return speed_scale(system, gain_of(segment)) <= kNoChange * speed_scale(system, segment.begin);
 }
 
 /// A base force this small, relative to that of its spring, is zero.
@@ -53,8 +63,8 @@ constexpr double kFastestRecovery = 1e12;
 double sliding_threshold(const System& system) { return system.tanh_saturation * system.regularization; }
 
 /// Sets the law of friction of every loaded contact. `zero_slip` marks those whose V or stick an event has just brought
-/// to its end, `slides` those that are decided already; `speed`: what V is small against.
-void set_friction(const System& system, const State& state, const DriveForms& drives, double speed,
+/// to its end, `slides` those that are decided already; `motions`: what V is small against.
+void set_friction(const System& system, const State& state, const DriveForms& drives, const Motions& motions,
                   const SiteFlags& zero_slip, const SiteFlags& slides, FrictionChoice& friction, ContactMode& mode) {
   if (system.friction == 0.0) return;
   SiteFlags at_rest{};
@@ -64,7 +74,8 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       contact.slip = Slip::none;
       continue;
     }
-    const double v = contact_kinematics(system, state, static_cast<Site>(i), contact.face).slip_velocity;
+    const ContactKinematics kinematics = contact_kinematics(system, state, static_cast<Site>(i), contact.face);
+    const double v = kinematics.slip_velocity;
     if (system.regularization > 0.0) {
       // sliding, or the layer about V = 0; an event has put V on the border, from where the old law tells the way
       if (zero_slip[i]) {
@@ -77,7 +88,8 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       }
       continue;
     }
-    at_rest[i] = !slides[i] && (zero_slip[i] || contact.slip == Slip::stick || std::abs(v) <= kZeroSlip * speed);
+    const bool zero = std::abs(v) <= kZeroSlip * slip_scale(kinematics, motions);
+    at_rest[i] = !slides[i] && (zero_slip[i] || contact.slip == Slip::stick || zero);
     // what slides in name only is at its limit; what has just been found to start sliding is not
     const bool starts = mode.pins[i].slip > 0 && mode.pins[i].slip <= MotionSeries::kHeldPowers;
     if (at_rest[i] && !zero_slip[i] && !starts && contact.slip == Slip::plus) mode.pins[i].hold_minus = 1;
@@ -191,7 +203,7 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
       default: break;
     }
   }
-  set_friction(system, state, drives_at_end, speed_scale(system, segment), zero_slip, slides, friction, mode);
+  set_friction(system, state, drives_at_end, motions_of(segment), zero_slip, slides, friction, mode);
   for (int i = 0; i < events.count; ++i) {
     Event& event = events.events[i];
     if (event.kind == EventKind::slip_reversal &&
@@ -217,7 +229,7 @@ double excess_friction(const System& system, const Segment& segment, double step
 
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,
                           FrictionChoice& friction, ContactMode& mode) {
-  set_friction(system, segment.end, drives, speed_scale(system, segment), {}, {}, friction, mode);
+  set_friction(system, segment.end, drives, motions_of(segment), {}, {}, friction, mode);
 }
 
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives, FrictionChoice& friction) {
@@ -226,7 +238,7 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
   for (std::size_t i = 0; i < kSiteCount; ++i)
     if (system.recovery && mode.contacts[i].phase == Phase::unloaded)
       mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
-  set_friction(system, start, drives, speed_scale(system, start), {}, {}, friction, mode);
+  set_friction(system, start, drives, {start, start, start}, {}, {}, friction, mode);
   return mode;
 }
 

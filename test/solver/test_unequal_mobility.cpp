@@ -387,13 +387,50 @@ TEST_P(UnequalMobility, is_mirrored_in_the_mirrored_scene) {
   EXPECT_LE(test::distance(q, test::mirrored(other.final_state)), 1e-5 * size);
 }
 
+// V of one corner beside the other is 2 a phi phi', far below the speed of the part across the face, of which V has
+// nothing: it is no zero.
+TEST(UnequalMobilityOf, level_corners_slide_the_way_they_move) {
+  const Scene rocking = test::scene_of(R"(
+part: {half_width: 1, base_distance: 0.6, inertia: 0.06}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 6e+01}, damping: {x: 0, y: 3}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 0.3}
+weight: 7e+01
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -3, y: 1, phi: -0.2, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 3, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)");
+  const System system = make_system(rocking);
+  int seen = 0;
+  double before = 0.0;  // speeds along the face in the last segment: V is measured by them
+  test::run(rocking, [&](const Segment& g) {
+    const double now =
+        std::abs(g.begin.vx) + std::abs(g.begin.omega) + g.duration * (std::abs(g.vx[1]) + std::abs(g.omega[1]));
+    for (int i = 0; i < g.loaded_count; ++i) {
+      const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
+      const ContactState& law = g.contacts[static_cast<std::size_t>(contact.site)];
+      if (law.slip != Slip::plus && law.slip != Slip::minus) continue;
+      const double v = contact_kinematics(system, g.begin, contact.site, law.face).slip_velocity;
+      if (std::abs(v) <= 1e-9 * std::max(before, now)) continue;
+      ++seen;
+      EXPECT_EQ(v > 0.0, law.slip == Slip::plus) << g.start.value() << ": V = " << v;
+    }
+    before = now;
+  });
+  EXPECT_GT(seen, 20);
+}
+
 /// Those in which the implicit steps have contacts to hold, and end in time.
 std::vector<test::NamedScene> held_cases() {
   std::vector<test::NamedScene> held;
-  for (const char* name : {"corners_sharing_for_long", "corners_far_below_a_light_part",
-                           "corner_on_the_floor_held_by_the_wall", "edge_and_corner_of_a_narrow_part",
-                           "level_corners_of_high_friction", "corners_of_a_part_that_turns_at_once",
-                           "one_of_two_corners_slides"})
+  for (const char* name :
+       {"corners_sharing_for_long", "corners_far_below_a_light_part", "corner_on_the_floor_held_by_the_wall",
+        "edge_and_corner_of_a_narrow_part", "level_corners_of_high_friction", "corners_of_a_part_that_turns_at_once",
+        "one_of_two_corners_slides"})
     for (const test::NamedScene& scene : cases())
       if (scene.name == name) held.push_back(scene);
   return held;
