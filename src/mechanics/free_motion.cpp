@@ -92,7 +92,7 @@ void FreeMotion::settle(Waves& waves) {
 
 double FreeMotion::slow_rate() const { return pull_ / (decay_ + root_); }
 
-double FreeMotion::acceleration(double t, const Waves::Values& waves, double q, double v) const {
+double FreeMotion::moving_acceleration(double t, const Waves::Values& waves, double q, double v) const {
   double force = constant_ + slope_ * t;
   for (const Sine& sine : sines_) {
     const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
@@ -186,7 +186,7 @@ void FreeMotion::fade(const Mode& fastest) {
   late_.third += third / excess;
 }
 
-double FreeMotion::rate(double t) const { return t < decayed_ ? early_rate_ : late_rate_; }
+double FreeMotion::moving_rate(double t) const { return t < decayed_ ? early_rate_ : late_rate_; }
 
 /// Position and velocity of an axis that moves.
 void FreeMotion::move(double t, const Waves::Values& waves, double& q, double& v) const {

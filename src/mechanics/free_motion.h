@@ -32,7 +32,7 @@ class FreeMotion {
   Bounds bounds(double begin, double end) const { return axis_.moves ? moving_bounds(begin, end) : Bounds{}; }
 
   /// Fastest rate of the motion from time t on, rad per unit of time: of all that has not decayed.
-  double rate(double t) const;
+  double rate(double t) const { return axis_.moves ? moving_rate(t) : 0.0; }
 
   /// Position and velocity at time t >= 0 after begin(), from the waves at that time.
   void at(double t, const Waves::Values& waves, double& q, double& v) const {
@@ -42,7 +42,9 @@ class FreeMotion {
   }
 
   /// Acceleration at time t after begin(), from the position and velocity at that time.
-  double acceleration(double t, const Waves::Values& waves, double q, double v) const;
+  double acceleration(double t, const Waves::Values& waves, double q, double v) const {
+    return axis_.moves ? moving_acceleration(t, waves, q, v) : 0.0;
+  }
 
  private:
   struct Sine {
@@ -52,7 +54,9 @@ class FreeMotion {
   };
 
   void move(double t, const Waves::Values& waves, double& q, double& v) const;
+  double moving_acceleration(double t, const Waves::Values& waves, double q, double v) const;
   Bounds moving_bounds(double begin, double end) const;
+  double moving_rate(double t) const;
   /// A term amplitude exp(-decay t) of the free motion, or an oscillation within it; its n-th derivative is at most
   /// amplitude rate^n exp(-decay t).
   struct Mode {
