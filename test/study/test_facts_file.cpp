@@ -128,6 +128,8 @@ TEST(FactsFile, refuses_with_place_and_reason) {
       {"at_least: 1\n", "at_least: 3\n", "facts.0.measures.1.at_least: 3: must not be above at_most"},
       {"expected: met", "expected: perhaps", "facts.0.expected: perhaps: must be met or missed"},
       {"studies: ../studies", "", "studies: missing: must be the folder"},
+      {"each: [initial.x]", "each: [[a]]", "facts.0.measures.0.curves.each: (a list): must be text or a list of texts"},
+      {"why: A line.", "why: {}", "facts.0.why: (a map): must be text, of 1 to 1000 bytes"},
       {"id: F4.1", "", "facts.0.id: missing: "},
       {"take: at, at: 0.2", "take: at", "facts.0.measures.1.ratio.0.curves.at: missing: must be a number"},
       {"take: r_squared", "take: min, at: 1", "facts.0.measures.0.curves.at: 1: means something with"},
