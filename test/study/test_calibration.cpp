@@ -34,7 +34,7 @@ facts:
     why: As it says.
     expected: met
     measures:
-      - {name: largest force, study: blow, of: peak_force.a1, rows: {take: max}, at_least: 199.8, at_most: 200.2, scale: 100}
+      - {name: largest force, study: blow, of: peak_force_a1, rows: {take: max}, at_least: 199.8, at_most: 200.2, scale: 100}
   - id: E
     says: The trial ends.
     why: As it says.
