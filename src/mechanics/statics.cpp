@@ -1,8 +1,9 @@
 #include "mechanics/statics.h"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <functional>
+#include <cstdint>
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/site_rules.h"
@@ -46,15 +47,16 @@ double moment_scale(const System& system, double phi) {
          (std::abs(system.weight) + std::abs(system.start.y - system.y.anchor)) * system.slot_half_width;
 }
 
-/// Root of a function on [low, high] whose ends differ in sign, to roundoff (bisection).
-double bisect(const std::function<double(double)>& f, double low, double high) {
-  const double sign = f(low) > 0.0 ? 1.0 : -1.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (sign * f(middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+/// Root of a function on [low, high] whose ends differ in sign, to roundoff.
+template <class Function>
+double root_between(const Function& f, double low, double high) {
+  std::uintmax_t evaluations = 200;
+  const auto nothing_between = [](double a, double b) {
+    const double middle = 0.5 * (a + b);
+    return middle == a || middle == b;
+  };
+  const auto bracket = boost::math::tools::toms748_solve(f, low, high, nothing_between, evaluations);
+  return 0.5 * (bracket.first + bracket.second);
 }
 
 /// Height at which the vertical forces balance, searched below `top` (where nothing is touched).
@@ -67,7 +69,7 @@ std::optional<double> balanced_height(const System& system, double x, double phi
     way *= 2.0;
     if (way > 1e9) return std::nullopt;
   }
-  return bisect(lift, top - way, top);
+  return root_between(lift, top - way, top);
 }
 
 }  // namespace
@@ -151,21 +153,23 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
   const double begin = system.phi.anchor;
   const double first = moment(begin);
   if (std::isnan(first)) return false;
-  double low = begin, high = begin;
+  system.start.phi = begin;
   if (first != 0.0) {
+    // towards the side to which it turns the part; the same numbers for the mirrored scene
     const double direction = first > 0.0 ? 1.0 : -1.0;
-    double step = 1e-4;
+    const auto turning = [&](double way) { return direction * moment(begin + direction * way); };
+    double low = 0.0, high = 0.0, step = 1e-4;
     for (;;) {
-      high = low + direction * step;
-      if (std::abs(high - begin) > 0.5 * kPi) return false;
-      const double value = moment(high);
+      high = low + step;
+      if (high > 0.5 * kPi) return false;
+      const double value = turning(high);
       if (std::isnan(value)) return false;
-      if (!(direction * value > 0.0)) break;
+      if (!(value > 0.0)) break;
       low = high;
       step = std::min(1.5 * step, 0.02);
     }
+    system.start.phi = begin + direction * root_between(turning, low, high);
   }
-  system.start.phi = first == 0.0 ? begin : bisect(moment, low, high);
   if (!settle_height(system.start.phi, system.start.y)) return false;
   // where the touching point changes the moment jumps, and its change of sign is no equilibrium
   return std::abs(moment(system.start.phi)) <= kBalanced * moment_scale(system, system.start.phi);
