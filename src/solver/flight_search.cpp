@@ -103,33 +103,23 @@ class View {
 
   PointMotion point(Site site) const {
     PointMotion m;
-    const Vec2& a = acceleration_;
-    const double omega = state_.omega, alpha = turn_acceleration_;
-    const double pull = bounds_.x.second + bounds_.y.second, speed = bounds_.x.rate + bounds_.y.rate;
-    const FreeMotion::Bounds& turn = bounds_.phi;
-    double reach = 0.0;
+    m.jerk = bounds_.x.third + bounds_.y.third;
     if (is_edge(site)) {
       // body coordinates: r = A - C turned back by phi
       const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
+      const Vec2& a = acceleration_;
       m.p = {rx * c_ + ry * s_, ry * c_ - rx * s_};
-      const Vec2 v{-(state_.vx * c_ + state_.vy * s_), state_.vx * s_ - state_.vy * c_};
-      const Vec2 b{-(a.x * c_ + a.y * s_), a.x * s_ - a.y * c_};
-      const Vec2 jp = turned(m.p), jv = turned(v);
-      m.rate = {v.x - omega * jp.x, v.y - omega * jp.y};
-      m.acceleration = {b.x - 2.0 * omega * jv.x - alpha * jp.x - omega * omega * m.p.x,
-                        b.y - 2.0 * omega * jv.y - alpha * jp.y - omega * omega * m.p.y};
-      reach = std::abs(m.p.x) + std::abs(m.p.y) + speed * longest_;
-      m.jerk = 3.0 * (pull * turn.rate + speed * (turn.second + turn.rate * turn.rate));
+      m.rate = {-(state_.vx * c_ + state_.vy * s_), state_.vx * s_ - state_.vy * c_};
+      m.acceleration = {-(a.x * c_ + a.y * s_), a.x * s_ - a.y * c_};
+      if (system_.phi.moves) turn_edge(m);
     } else {
       const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-      const Vec2 r{beta * c_ + b * s_, beta * s_ - b * c_}, jr = turned(r);
+      const Vec2 r{beta * c_ + b * s_, beta * s_ - b * c_};
       m.p = {state_.x + r.x, state_.y + r.y};
-      m.rate = {state_.vx + omega * jr.x, state_.vy + omega * jr.y};
-      m.acceleration = {a.x + alpha * jr.x - omega * omega * r.x, a.y + alpha * jr.y - omega * omega * r.y};
-      reach = std::abs(r.x) + std::abs(r.y);
+      m.rate = {state_.vx, state_.vy};
+      m.acceleration = acceleration_;
+      if (system_.phi.moves) turn_corner(r, m);
     }
-    m.jerk += bounds_.x.third + bounds_.y.third +
-              reach * (turn.third + 3.0 * turn.rate * turn.second + turn.rate * turn.rate * turn.rate);
     return m;
   }
 
@@ -154,6 +144,34 @@ class View {
   double damping(Face face) const { return damping_of(system_, face, c_, s_); }
 
  private:
+  /// What the part's turning adds to the motion of an edge as seen from the part.
+  void turn_edge(PointMotion& m) const {
+    const double omega = state_.omega, alpha = turn_acceleration_;
+    const double pull = bounds_.x.second + bounds_.y.second, speed = bounds_.x.rate + bounds_.y.rate;
+    const FreeMotion::Bounds& turn = bounds_.phi;
+    const Vec2 jp = turned(m.p), jv = turned(m.rate);
+    m.rate = {m.rate.x - omega * jp.x, m.rate.y - omega * jp.y};
+    m.acceleration = {m.acceleration.x - 2.0 * omega * jv.x - alpha * jp.x - omega * omega * m.p.x,
+                      m.acceleration.y - 2.0 * omega * jv.y - alpha * jp.y - omega * omega * m.p.y};
+    m.jerk += 3.0 * (pull * turn.rate + speed * (turn.second + turn.rate * turn.rate));
+    add_turning_jerk(std::abs(m.p.x) + std::abs(m.p.y) + speed * longest_, m);
+  }
+
+  /// ... to that of a corner at r from the mass centre.
+  void turn_corner(const Vec2& r, PointMotion& m) const {
+    const double omega = state_.omega, alpha = turn_acceleration_;
+    const Vec2 jr = turned(r);
+    m.rate = {m.rate.x + omega * jr.x, m.rate.y + omega * jr.y};
+    m.acceleration = {m.acceleration.x + alpha * jr.x - omega * omega * r.x,
+                      m.acceleration.y + alpha * jr.y - omega * omega * r.y};
+    add_turning_jerk(std::abs(r.x) + std::abs(r.y), m);
+  }
+
+  void add_turning_jerk(double reach, PointMotion& m) const {
+    const FreeMotion::Bounds& turn = bounds_.phi;
+    m.jerk += reach * (turn.third + 3.0 * turn.rate * turn.second + turn.rate * turn.rate * turn.rate);
+  }
+
   const System& system_;
   const State& state_;
   double longest_, c_, s_;
