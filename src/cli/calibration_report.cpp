@@ -1,23 +1,18 @@
 #include "cli/calibration_report.h"
 
-#include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <string>
+
+#include "cli/ledger_report.h"
 
 namespace vibratory_alignment {
 namespace {
 
 std::string number(double value) {
-  if (std::isnan(value)) return "none";
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
-}
-
-std::string bound_text(const Bound& bound) {
-  if (bound.at_least && bound.at_most) return number(*bound.at_least) + " to " + number(*bound.at_most);
-  return bound.at_least ? "at least " + number(*bound.at_least) : "at most " + number(*bound.at_most);
 }
 
 void write_searches(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
@@ -47,14 +42,6 @@ void write_settings(std::ostream& out, const Calibration& calibration, const Cal
   out << "```\n";
 }
 
-void write_facts(std::ostream& out, const CalibratedSet& best) {
-  out << "| fact | measure | value | bound | |\n|---|---|---|---|---|\n";
-  for (const FactResult& fact : best.results)
-    for (const MeasureResult& measure : fact.measures)
-      out << "| " << fact.id << " | " << measure.name << " | " << number(measure.reading.value) << " | "
-          << bound_text(measure.bound) << " | " << (measure.met ? "met" : "missed") << " |\n";
-}
-
 }  // namespace
 
 void write_calibration_report(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
@@ -74,7 +61,7 @@ void write_calibration_report(std::ostream& out, const Calibration& calibration,
         << number(parameter.to) << " |\n";
   }
   out << "\nIts facts, on the whole studies:\n\n";
-  write_facts(out, best);
+  out << ledger_markdown(result.book, best.results);
   out << "\nIts settings of the scenes, by study:\n\n";
   write_settings(out, calibration, best);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <limits>
 #include <mutex>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "model/number_text.h"
 #include "model/scene_loader.h"
 #include "study/formula.h"
 #include "study/shortfall_of_sets.h"
@@ -26,16 +26,10 @@ constexpr double kLocalStep = 0.1;
 /// simplex of kLocalStep spans.
 constexpr double kLocalRoom = 4.0;
 
-std::string digits(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", number);
-  return text;
-}
-
 void append(const CalibrationSettings& settings, const Table& parameters, FactSettings& all) {
   for (const auto& [study, assignments] : settings)
     for (const auto& [key, formula] : assignments) {
-      const std::string assignment = key + "=" + digits(evaluate_formula(formula, parameters).front());
+      const std::string assignment = key + "=" + number_text(evaluate_formula(formula, parameters).front());
       (study == "all" ? all.all : all.of_study[study]).push_back(assignment);
     }
 }
@@ -274,6 +268,7 @@ CalibrationResult run_calibration(const Calibration& calibration, const Calibrat
                    result.best.begin() + static_cast<std::ptrdiff_t>(std::min(search.finalists, jobs)),
                    [](const CalibratedSet& a, const CalibratedSet& b) { return a.met() > b.met(); });
   tally.fill(result);
+  result.book = suites.front().book;
   return result;
 }
 

@@ -78,6 +78,7 @@ struct CalibrationProgress {
 };
 
 struct CalibrationResult {
+  FactBook book;                    ///< the facts that the results of the finalists belong to
   std::vector<CalibratedSet> best;  ///< of every search, the least shortfall first; the finalists have results
   std::size_t evaluations = 0, trials = 0;
   std::vector<std::size_t> sets_that_meet;  ///< [n]: sets, of those that were looked at whole, that meet n facts

@@ -105,7 +105,7 @@ TEST(Calibration, puts_the_formulas_of_a_reading_after_the_others) {
   const Calibration calibration = load_calibration(CalibrationFiles().path());
   const FactSettings settings = settings_of(calibration, calibration.readings[1], {250.0});
   EXPECT_EQ(settings.all, (std::vector<std::string>{"base.stiffness.y=250"}));
-  EXPECT_EQ(settings.of_study.at("blow"), (std::vector<std::string>{"weight=0.10000000000000001"}));
+  EXPECT_EQ(settings.of_study.at("blow"), (std::vector<std::string>{"weight=0.1"}));
 }
 
 TEST(CalibrationParameter, covers_its_range) {
