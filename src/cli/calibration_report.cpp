@@ -47,9 +47,9 @@ void write_settings(std::ostream& out, const Calibration& calibration, const Cal
 void write_calibration_report(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
   const CalibratedSet& best = result.best.front();
   out << result.evaluations << " sets of " << calibration.parameters.size() << " values were looked at, "
-      << result.trials << " trials. The studies were thinned out: every " << calibration.search.thinning.grid
-      << "th point of a range and one in " << calibration.search.thinning.samples
-      << " samples; the best sets were judged on the whole studies.\n\n";
+      << result.trials << " trials. The search kept one in " << calibration.search.thinning.grid
+      << " values of a range and one in " << calibration.search.thinning.samples
+      << " samples of the studies; the best sets were judged on the whole studies.\n\n";
   write_searches(out, calibration, result);
   out << "\nHow many sets meet how many facts, of those that were not given up on the way:\n\n";
   write_counts(out, result);
