@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "cli/calibration_log.h"
 #include "cli/calibration_report.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr char kFooter[] = R"(Examples:
   align calibrate config/paper/calibration.yaml --report calibration.md
   align calibrate my_search.yaml --threads 8
+  align calibrate my_search.yaml --log my_search.jsonl --resume     goes on where an earlier run ended
 
 A calibration file names facts, the values that are searched for with their ranges, and what they are in the scenes
 (docs/studies.md). The search is the same whatever the threads; one thread runs one search. It takes from minutes to
@@ -34,7 +36,8 @@ Exit status: 0 it ran; 1 it failed while running; 2 bad usage or bad file; inter
 constexpr double kSecondsBetweenLines = 30.0;
 
 struct Options {
-  std::string file, report;
+  std::string file, report, log;
+  bool resume = false;
   int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 };
 
@@ -46,9 +49,8 @@ class ProgressLines {
     if (now < next_) return;
     next_ = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kSecondsBetweenLines));
     const double seconds = std::chrono::duration<double>(now - begin_).count();
-    std::fprintf(stderr, "%6.0f s: %zu of at most %zu sets, %zu trials; best: shortfall %.3f, %zu facts met\n", seconds,
-                 progress.evaluations, progress.all_evaluations, progress.trials, progress.best_shortfall,
-                 progress.best_met);
+    std::fprintf(stderr, "%6.0f s: %zu sets, %zu trials; best: shortfall %.3f, %zu facts met\n", seconds,
+                 progress.evaluations, progress.trials, progress.best_shortfall, progress.best_met);
   }
 
  private:
@@ -61,6 +63,11 @@ int run_calibrate(const Options& options) {
   std::unique_ptr<OutputPath> report;
   if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);
 
+  std::unique_ptr<CalibrationLog> log;
+  if (!options.log.empty())
+    log = std::make_unique<CalibrationLog>(
+        options.log, fingerprint(calibration, find_scene, VIBRATORY_ALIGNMENT_VERSION), options.resume);
+
   ProgressLines lines;
   const InterruptGuard interrupt;
   CalibrationOptions run;
@@ -68,12 +75,21 @@ int run_calibrate(const Options& options) {
   run.find_scene = find_scene;
   run.progress = [&](const CalibrationProgress& progress) { lines.update(progress); };
   run.go_on = [&] { return interrupt.signal() == 0; };
+  if (log) {
+    run.known = [&](const CalibrationPlace& place, const std::vector<double>& values) {
+      return log->known(place, values);
+    };
+    run.keep = [&](const CalibrationPlace& place, const std::vector<double>& values, const CalibrationAnswer& answer) {
+      log->keep(place, values, answer);
+    };
+  }
   CalibrationResult result;
   try {
     result = run_calibration(calibration, run);
   } catch (const std::runtime_error&) {
     if (interrupt.signal() == 0) throw;
-    std::fprintf(stderr, "align: interrupted; nothing is reported or written\n");
+    std::fprintf(stderr, "align: interrupted; nothing is reported%s\n",
+                 log ? ". --resume goes on with what the log has" : ", and without --log nothing is kept");
     return 128 + interrupt.signal();
   }
   if (!report) {
@@ -101,6 +117,9 @@ std::function<int()> set_up_calibrate(CLI::App& app) {
       ->type_name("N");
   app.add_option("--report", options->report, "Write the report (Markdown) to this file instead of stdout")
       ->type_name("FILE");
+  CLI::Option* log = app.add_option("--log", options->log, "Write every answer to this file, as it is known")
+                         ->type_name("FILE");
+  app.add_flag("--resume", options->resume, "Go on with the answers that the log has")->needs(log);
   return [options] { return run_calibrate(*options); };
 }
 

@@ -16,10 +16,10 @@ std::string number(double value) {
 }
 
 void write_searches(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
-  out << "| reading | seed | shortfall in the search | facts met on the whole studies |\n|---|---|---|---|\n";
+  out << "| reading | seed | went on with the rounds | shortfall in the search | facts met on the whole studies |\n|---|---|---|---|---|\n";
   for (const CalibratedSet& set : result.best) {
-    out << "| " << calibration.readings[set.reading].name << " | " << set.seed << " | " << number(set.shortfall)
-        << " | ";
+    out << "| " << calibration.readings[set.reading].name << " | " << set.seed << " | "
+        << (set.refined ? "yes" : "no") << " | " << number(set.shortfall) << " | ";
     if (set.results.empty())
       out << "not judged |\n";
     else
@@ -47,7 +47,7 @@ void write_settings(std::ostream& out, const Calibration& calibration, const Cal
 void write_calibration_report(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
   const CalibratedSet& best = result.best.front();
   out << result.evaluations << " sets of " << calibration.parameters.size() << " values were looked at, "
-      << result.trials << " trials. The search kept one in " << calibration.search.thinning.grid
+      << result.trials << " trials. The searches began with one in " << calibration.search.thinning.grid
       << " values of a range and one in " << calibration.search.thinning.samples
       << " samples of the studies; the best sets were judged on the whole studies.\n\n";
   write_searches(out, calibration, result);

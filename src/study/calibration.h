@@ -1,10 +1,13 @@
 // Calibration: the search for values that the paper leaves out, such that a trial of its figures shows what it says.
 //
 // A set is a value for every parameter. Its settings go into the studies that the facts are measured on; its shortfall
-// is the sum of the facts' (facts.h), 0 when all are met. Searched is in two stages, for every reading of the paper and
-// several seeds each: a controlled random search over all ranges (NLopt's CRS2 with local mutation), then a subspace
-// simplex search (NLopt's Sbplx) from its best set. What a study's samples leave of noise is in the shortfall as well,
-// so derivatives would be of no use. The best sets of all searches are judged at last on the studies as a whole.
+// is the sum of the facts' (facts.h), 0 when all are met. Every reading of the paper is searched, with several seeds
+// each: first all ranges at once, by a controlled random search (NLopt's CRS2 with local mutation). The searches with
+// the best sets go on, in rounds that look around the best set so far, nearer and nearer and on fuller studies. A round
+// takes the values of all studies first, then for each figure its own: those ask only for that figure's studies, which
+// is what makes a round cheap. At last a subspace simplex search (NLopt's Sbplx) over all values. What a study's
+// samples leave of noise is in the shortfall as well, so derivatives would be of no use. The best sets of all searches
+// are judged on the whole studies.
 #pragma once
 
 #include <cstddef>
@@ -39,19 +42,30 @@ struct CalibrationReading {
   CalibrationSettings settings;  ///< come after those of the calibration
 };
 
+/// A look around the best set so far.
+struct CalibrationRound {
+  double reach = 0.0;                  ///< to both sides of the best set, as a share of the ranges
+  std::size_t shared_evaluations = 0;  ///< of the values that all studies have in common
+  std::size_t own_evaluations = 0;     ///< of those of each group of studies that has values of its own
+  Thinning thinning;                   ///< of the studies
+};
+
 struct CalibrationSearch {
   std::size_t searches = 2;  ///< for each reading, seeds 1 and on
   std::size_t population = 100;
   std::size_t global_evaluations = 1000;
-  std::size_t local_evaluations = 500;
-  std::size_t finalists = 4;           ///< sets that are judged on the whole studies
-  Thinning thinning;                   ///< of the studies during the search
-  std::vector<std::string> leave_out;  ///< facts that only the finalists are judged by
+  Thinning thinning;         ///< of the studies at first
+  std::size_t refined = 2;   ///< searches that go on with the rounds
+  std::vector<CalibrationRound> rounds;
+  std::size_t local_evaluations = 500;  ///< after the last round, with its thinning
+  std::size_t finalists = 2;            ///< sets that are judged on the whole studies
+  std::vector<std::string> leave_out;   ///< facts that only the finalists are judged by
 };
 
 /// Plain data, read by calibration_file.h.
 struct Calibration {
   std::string source;
+  std::string text;  ///< of the file, without comments
   std::string facts_file;
   std::vector<CalibrationParameter> parameters;
   CalibrationSettings settings;
@@ -63,23 +77,41 @@ struct Calibration {
 FactSettings settings_of(const Calibration& calibration, const CalibrationReading& reading,
                          const std::vector<double>& values);
 
+/// What came out when a set was looked at.
+struct CalibrationAnswer {
+  struct Part {
+    double shortfall = 0.0;
+    std::size_t met = 0;  ///< facts
+  };
+  std::vector<Part> parts;  ///< fewer than were asked for when the set was given up
+  std::size_t trials = 0;
+  double shortfall() const;
+};
+
+/// The how manyth set of which search.
+struct CalibrationPlace {
+  std::size_t reading = 0, seed = 0, number = 0;
+  bool operator<(const CalibrationPlace& other) const;
+};
+
 struct CalibratedSet {
   std::size_t reading = 0, seed = 0;
+  bool refined = false;  ///< its search went on with the rounds
   std::vector<double> values;
-  double shortfall = 0.0;           ///< on the thinned studies
+  double shortfall = 0.0;           ///< on the studies as thinned out at its search's end
   std::vector<FactResult> results;  ///< on the whole studies; only of finalists
   std::size_t met() const;
 };
 
 struct CalibrationProgress {
-  std::size_t evaluations = 0, all_evaluations = 0, trials = 0;
+  std::size_t evaluations = 0, trials = 0;
   double best_shortfall = 0.0;
   std::size_t best_met = 0;
 };
 
 struct CalibrationResult {
   FactBook book;                    ///< the facts that the results of the finalists belong to
-  std::vector<CalibratedSet> best;  ///< of every search, the least shortfall first; the finalists have results
+  std::vector<CalibratedSet> best;  ///< of every search: the finalists, refined ones, others; the best first
   std::size_t evaluations = 0, trials = 0;
   std::vector<std::size_t> sets_that_meet;  ///< [n]: sets, of those that were looked at whole, that meet n facts
 };
@@ -87,9 +119,18 @@ struct CalibrationResult {
 struct CalibrationOptions {
   int threads = 1;  ///< searches that run at the same time
   FindScene find_scene;
-  std::function<void(const CalibrationProgress&)> progress;  ///< told after each evaluation, by one thread at a time
+  /// The following are called by one thread at a time.
+  std::function<void(const CalibrationProgress&)> progress;  ///< after each evaluation
   std::function<bool()> go_on;
+  /// An answer that is known from an earlier run of the same calibration; it is not asked for again.
+  std::function<std::optional<CalibrationAnswer>(const CalibrationPlace&, const std::vector<double>& values)> known;
+  /// Told every answer that was not known.
+  std::function<void(const CalibrationPlace&, const std::vector<double>& values, const CalibrationAnswer&)> keep;
 };
+
+/// The same for calibrations that ask the same in the same order: of this file, the facts file, the studies that it
+/// names, their scenes and `version`, that of this package. Throws SceneError as run_calibration.
+std::string fingerprint(const Calibration& calibration, const FindScene& find_scene, const std::string& version);
 
 /// Deterministic, whatever the threads. Throws SceneError for a facts file or study that is refused or a setting that
 /// no scene takes, FormulaError, and std::runtime_error when `go_on` ended it.

@@ -40,17 +40,34 @@ std::size_t read_count(TreeReader& reader, const char* key) {
   return static_cast<std::size_t>(reader.required_number(key, positive_whole_number));
 }
 
+Thinning read_thinning(TreeReader reader) {
+  Thinning thinning;
+  thinning.samples = read_count(reader, "samples");
+  thinning.grid = read_count(reader, "grid");
+  reader.refuse_unknown_keys();
+  return thinning;
+}
+
+CalibrationRound read_round(TreeReader reader) {
+  CalibrationRound round;
+  round.reach = reader.required_number("reach", positive_number);
+  round.shared_evaluations = read_count(reader, "shared_evaluations");
+  round.own_evaluations = read_count(reader, "own_evaluations");
+  round.thinning = read_thinning(reader.section("thinning"));
+  reader.refuse_unknown_keys();
+  return round;
+}
+
 CalibrationSearch read_search(TreeReader reader) {
   CalibrationSearch search;
   search.searches = read_count(reader, "searches");
   search.population = read_count(reader, "population");
   search.global_evaluations = read_count(reader, "global_evaluations");
+  search.thinning = read_thinning(reader.section("thinning"));
+  search.refined = read_count(reader, "refined");
+  for (const TreeReader& round : reader.sections("rounds")) search.rounds.push_back(read_round(round));
   search.local_evaluations = read_count(reader, "local_evaluations");
   search.finalists = read_count(reader, "finalists");
-  TreeReader thinning = reader.section("thinning");
-  search.thinning.samples = read_count(thinning, "samples");
-  search.thinning.grid = read_count(thinning, "grid");
-  thinning.refuse_unknown_keys();
   search.leave_out = reader.texts("leave_out");
   reader.refuse_unknown_keys();
   return search;
@@ -60,9 +77,11 @@ CalibrationSearch read_search(TreeReader reader) {
 
 Calibration load_calibration(const std::string& path) {
   TreeReader::Faults faults;
-  TreeReader root(read_yaml_file(path), "", faults);
+  const YAML::Node tree = read_yaml_file(path);
+  TreeReader root(tree, "", faults);
   Calibration calibration;
   calibration.source = path;
+  calibration.text = YAML::Dump(tree);
   if (!root.has("facts")) root.fault("facts", "must be the name of a facts file, from the folder of this file");
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   calibration.facts_file = (folder / root.text("facts").value_or("")).lexically_normal().string();

@@ -36,7 +36,11 @@ std::string fingerprint(const Study& study, const std::string& version) {
     all["count"] = study.samples->count;
     all["seed"] = study.samples->seed;
   }
-  return boost::uuids::to_string(boost::uuids::name_generator_sha1(boost::uuids::ns::oid())(YAML::Dump(all)));
+  return fingerprint(YAML::Dump(all));
+}
+
+std::string fingerprint(const std::string& text) {
+  return boost::uuids::to_string(boost::uuids::name_generator_sha1(boost::uuids::ns::oid())(text));
 }
 
 }  // namespace vibratory_alignment

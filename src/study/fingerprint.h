@@ -12,4 +12,7 @@ namespace vibratory_alignment {
 /// names of files do not matter.
 std::string fingerprint(const Study& study, const std::string& version);
 
+/// The same for the same text.
+std::string fingerprint(const std::string& text);
+
 }  // namespace vibratory_alignment

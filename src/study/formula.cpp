@@ -29,4 +29,17 @@ std::vector<double> evaluate_formula(const std::string& formula, const Table& ta
   return values;
 }
 
+std::vector<std::string> names_in_formula(const std::string& formula) {
+  std::vector<std::string> names;
+  try {
+    mu::Parser parser;
+    parser.DefineNameChars(kNameCharacters);
+    parser.SetExpr(formula);
+    for (const auto& [name, place] : parser.GetUsedVar()) names.push_back(name);  // a sorted map
+  } catch (const mu::ParserError& error) {
+    throw FormulaError(formula + ": " + error.GetMsg());
+  }
+  return names;
+}
+
 }  // namespace vibratory_alignment

@@ -20,4 +20,7 @@ class FormulaError : public std::runtime_error {
 /// Throws FormulaError when it is not a formula, or asks for a column that there is none.
 std::vector<double> evaluate_formula(const std::string& formula, const Table& table);
 
+/// The columns that the formula asks for, sorted. Throws FormulaError when it is not a formula.
+std::vector<std::string> names_in_formula(const std::string& formula);
+
 }  // namespace vibratory_alignment

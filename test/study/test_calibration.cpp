@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/scene_loader.h"
 #include "study/calibration_file.h"
+#include "study/shortfall_of_sets.h"
 #include "study_text.h"
 
 namespace vibratory_alignment {
@@ -52,7 +54,15 @@ settings:
 readings:
   - {name: as it is}
   - {name: heavier, settings: {blow: {weight: 0.05 * 2}}}
-search: {searches: 2, population: 8, global_evaluations: 40, local_evaluations: 40, finalists: 2, thinning: {samples: 1, grid: 1}}
+search:
+  searches: 2
+  population: 8
+  global_evaluations: 40
+  thinning: {samples: 1, grid: 1}
+  refined: 3
+  rounds: [{reach: 0.2, shared_evaluations: 20, own_evaluations: 20, thinning: {samples: 1, grid: 1}}]
+  local_evaluations: 40
+  finalists: 2
 )";
 
 class CalibrationFiles {
@@ -97,7 +107,8 @@ TEST(Calibration, is_the_same_in_any_number_of_threads) {
 TEST(Calibration, counts_what_it_looks_at) {
   const CalibrationResult result = CalibrationFiles().run(1);
   EXPECT_EQ(result.evaluations, result.trials);  // one trial a set
-  EXPECT_LE(result.evaluations, 4u * 80u);
+  // 4 searches of all ranges, 3 that go on; each judges its best set anew when the studies change
+  EXPECT_LE(result.evaluations, 4u * 41u + 3u * (1u + 20u + 40u));
   EXPECT_GT(result.evaluations, 4u * 8u);
 }
 
@@ -114,6 +125,26 @@ TEST(CalibrationParameter, covers_its_range) {
   EXPECT_NEAR(log.share_of(100.0), 0.5, 1e-15);
   EXPECT_EQ(linear.value_at(0.5), 2.0);
   EXPECT_EQ(linear.share_of(3.0), 1.0);
+}
+
+/// Values that no study depends on, or that are searched for in two places, would be a mistake in the file.
+TEST(ShippedCalibration, has_every_value_in_one_group) {
+  const Calibration calibration = load_calibration(std::string(SCENE_DIR) + "/../paper/calibration.yaml");
+  const FactSuite suite = load_fact_suite(
+      calibration.facts_file, [](const std::string& name) { return std::string(SCENE_DIR) + "/" + name + ".yaml"; });
+  for (const CalibrationReading& reading : calibration.readings) {
+    const ShortfallOfSets shortfall(calibration, reading, suite, {16, 4});
+    const std::vector<CalibrationGroup> groups = shortfall.groups();
+    ASSERT_GT(groups.size(), 5u);
+    std::vector<std::size_t> found;
+    for (const CalibrationGroup& group : groups)
+      found.insert(found.end(), group.parameters.begin(), group.parameters.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, shortfall.all().parameters);
+    // the values of the material are everybody's, those of a figure its own
+    EXPECT_EQ(groups.front().parts, shortfall.all().parts);
+    for (std::size_t g = 1; g < groups.size(); ++g) EXPECT_LT(groups[g].parts.size(), groups.front().parts.size() / 2);
+  }
 }
 
 /// The message of a calibration file in which `from` stands for `to`.
@@ -136,11 +167,11 @@ TEST(CalibrationFile, names_what_is_wrong) {
       says(refusal("from: 100, to: 1.0e+6", "from: 100, to: 50"), "parameters.C1.to: 50: must be above `from`"));
   EXPECT_TRUE(says(refusal("start: 500", "start: 5"), "parameters.C1.start: 5: must be from `from` to `to`"));
   EXPECT_TRUE(says(refusal("spacing: log", "spacing: cubic"), "parameters.C1.spacing: cubic"));
-  EXPECT_TRUE(says(refusal("population: 8, ", ""), "search.population"));
+  EXPECT_TRUE(says(refusal("population: 8", "popular: 8"), "search.population"));
   EXPECT_TRUE(says(refusal("population: 8", "population: 0"), "search.population: 0"));
   EXPECT_TRUE(says(refusal("readings:", "reading:"), "reading"));
   EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.settings.blew: must be `all` or a study of"));
-  EXPECT_TRUE(says(refusal("finalists: 2,", "finalists: 2, leave_out: [Q],"), "search.leave_out: Q: must be the id"));
+  EXPECT_TRUE(says(refusal("finalists: 2", "finalists: 2\n  leave_out: [Q]"), "search.leave_out: Q: must be the id"));
 }
 
 }  // namespace

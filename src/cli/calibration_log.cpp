@@ -1,0 +1,98 @@
+#include "cli/calibration_log.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/errors.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr char kHead[] = "align calibrate";
+
+std::string head_line(const std::string& fingerprint) { return nlohmann::json{{kHead, fingerprint}}.dump(); }
+
+nlohmann::json to_json(const CalibrationPlace& place, const std::vector<double>& values,
+                       const CalibrationAnswer& answer) {
+  nlohmann::json parts = nlohmann::json::array();
+  for (const CalibrationAnswer::Part& part : answer.parts)
+    parts.push_back({{"shortfall", part.shortfall}, {"met", part.met}});
+  return {{"reading", place.reading}, {"seed", place.seed},      {"number", place.number},
+          {"values", values},         {"trials", answer.trials}, {"parts", parts}};
+}
+
+CalibrationAnswer answer_of(const nlohmann::json& line) {
+  CalibrationAnswer answer;
+  answer.trials = line.at("trials");
+  for (const nlohmann::json& part : line.at("parts")) answer.parts.push_back({part.at("shortfall"), part.at("met")});
+  return answer;
+}
+
+}  // namespace
+
+CalibrationLog::CalibrationLog(const std::string& path, const std::string& fingerprint, bool resume) : path_(path) {
+  take_over(fingerprint, resume);
+  file_ = std::fopen(path.c_str(), "ab");
+  if (file_ == nullptr) throw UsageError("--log: " + path + ": cannot be written: " + std::strerror(errno));
+  std::error_code unknown;
+  if (std::filesystem::file_size(path, unknown) == 0 || unknown) write(head_line(fingerprint));
+}
+
+CalibrationLog::~CalibrationLog() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+/// Reads what the file has, and cuts off a last line without an end.
+void CalibrationLog::take_over(const std::string& fingerprint, bool resume) {
+  std::error_code none;
+  if (std::filesystem::exists(path_, none) && !std::filesystem::is_regular_file(path_, none))
+    throw UsageError("--log: " + path_ + ": is no file");
+  std::ifstream file(path_, std::ios::binary);
+  std::string line;
+  std::uintmax_t whole = 0;
+  for (std::size_t number = 1; file && std::getline(file, line) && !file.eof(); ++number) {
+    if (number == 1 && line != head_line(fingerprint))
+      throw UsageError("--log: " + path_ +
+                       (resume ? ": is of another calibration (its files or this version differ)"
+                               : ": is a file already; give another name, or --resume to go on with it"));
+    if (number > 1 && !resume)
+      throw UsageError("--log: " + path_ + ": has answers of this calibration already; --resume goes on with them");
+    if (number > 1) try {
+        const nlohmann::json answer = nlohmann::json::parse(line);
+        known_[{answer.at("reading"), answer.at("seed"), answer.at("number")}] = {answer.at("values"),
+                                                                                  answer_of(answer)};
+      } catch (const nlohmann::json::exception&) {
+        throw UsageError("--log: " + path_ + ": line " + std::to_string(number) + " is not one of a calibration's log");
+      }
+    whole += line.size() + 1;
+  }
+  file.close();
+  if (std::filesystem::exists(path_, none) && std::filesystem::file_size(path_) > whole) {
+    if (whole == 0 && !resume) throw UsageError("--log: " + path_ + ": is a file already; give another name");
+    std::filesystem::resize_file(path_, whole);
+  }
+}
+
+std::optional<CalibrationAnswer> CalibrationLog::known(const CalibrationPlace& place,
+                                                       const std::vector<double>& values) const {
+  const auto entry = known_.find(place);
+  if (entry == known_.end()) return std::nullopt;
+  if (entry->second.values != values)
+    throw UsageError("--log: " + path_ + ": was written by a search that goes another way (another machine?)");
+  return entry->second.answer;
+}
+
+void CalibrationLog::keep(const CalibrationPlace& place, const std::vector<double>& values,
+                          const CalibrationAnswer& answer) {
+  write(to_json(place, values, answer).dump());
+}
+
+void CalibrationLog::write(const std::string& line) {
+  if (std::fputs((line + "\n").c_str(), file_) < 0 || std::fflush(file_) != 0)
+    throw OutputError(path_, std::strerror(errno));
+}
+
+}  // namespace vibratory_alignment
