@@ -117,8 +117,8 @@ std::function<int()> set_up_calibrate(CLI::App& app) {
       ->type_name("N");
   app.add_option("--report", options->report, "Write the report (Markdown) to this file instead of stdout")
       ->type_name("FILE");
-  CLI::Option* log = app.add_option("--log", options->log, "Write every answer to this file, as it is known")
-                         ->type_name("FILE");
+  CLI::Option* log =
+      app.add_option("--log", options->log, "Write every answer to this file, as it is known")->type_name("FILE");
   app.add_flag("--resume", options->resume, "Go on with the answers that the log has")->needs(log);
   return [options] { return run_calibrate(*options); };
 }

@@ -16,10 +16,11 @@ std::string number(double value) {
 }
 
 void write_searches(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
-  out << "| reading | seed | went on with the rounds | shortfall in the search | facts met on the whole studies |\n|---|---|---|---|---|\n";
+  out << "| reading | seed | went on with the rounds | shortfall in the search | facts met on the whole studies "
+         "|\n|---|---|---|---|---|\n";
   for (const CalibratedSet& set : result.best) {
-    out << "| " << calibration.readings[set.reading].name << " | " << set.seed << " | "
-        << (set.refined ? "yes" : "no") << " | " << number(set.shortfall) << " | ";
+    out << "| " << calibration.readings[set.reading].name << " | " << set.seed << " | " << (set.refined ? "yes" : "no")
+        << " | " << number(set.shortfall) << " | ";
     if (set.results.empty())
       out << "not judged |\n";
     else
@@ -54,11 +55,14 @@ void write_calibration_report(std::ostream& out, const Calibration& calibration,
   out << "\nHow many sets meet how many facts, of those that were not given up on the way:\n\n";
   write_counts(out, result);
   out << "\n## The best set\n\nReading: " << calibration.readings[best.reading].name << ".\n\n";
-  out << "| value | found | searched from | to |\n|---|---|---|---|\n";
+  out << "| value | found | searched from | to | other searches that went on |\n|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < best.values.size(); ++i) {
     const CalibrationParameter& parameter = calibration.parameters[i];
     out << "| " << parameter.name << " | " << number(best.values[i]) << " | " << number(parameter.from) << " | "
-        << number(parameter.to) << " |\n";
+        << number(parameter.to) << " | ";
+    for (std::size_t other = 1; other < result.best.size() && result.best[other].refined; ++other)
+      out << (other > 1 ? ", " : "") << number(result.best[other].values[i]);
+    out << " |\n";
   }
   out << "\nIts facts, on the whole studies:\n\n";
   out << ledger_markdown(result.book, best.results);

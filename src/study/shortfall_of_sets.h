@@ -1,5 +1,6 @@
-// The shortfall of a set of values, as cheaply as a search can use it: fact by fact or rather study by study, cheap ones
-// first; given up when what it falls short of so far is more than it may; and only of the facts that are asked for.
+// The shortfall of a set of values, as cheaply as a search can use it: fact by fact or rather study by study, cheap
+// ones first; given up when what it falls short of so far is more than it may; and only of the facts that are asked
+// for.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +26,8 @@ class ShortfallOfSets {
     std::size_t trials = 0;  ///< that they take
   };
 
-  /// Keeps references to the calibration and the reading, and a copy of the suite, whose trees are used by one thread at
-  /// a time.
+  /// Keeps references to the calibration and the reading, and a copy of the suite, whose trees are used by one thread
+  /// at a time.
   ShortfallOfSets(const Calibration& calibration, const CalibrationReading& reading, const FactSuite& suite,
                   const Thinning& thinning);
 

@@ -14,9 +14,12 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
-/// The start moved in its last digits, or by what the solver's tolerance cuts off.
-Scene nudged(Scene s, double sign) {
-  const double share = sign * (1e-13 + 1e-2 * s.solver.tolerance);
+/// Starts that are tried: enough of them to meet a decision that rounding makes, if there is one.
+constexpr int kNudges = 8;
+
+/// The start moved in its last digits, or by what the solver's tolerance cuts off; `part` of it, from -1 to 1.
+Scene nudged(Scene s, double part) {
+  const double share = part * (1e-13 + 1e-2 * s.solver.tolerance);
   s.initial.x += share * (std::abs(s.initial.x) + s.part.half_width);
   if (s.initial.y) *s.initial.y += share * (std::abs(*s.initial.y) + s.part.base_distance);
   if (s.initial.phi) *s.initial.phi += share;
@@ -26,8 +29,13 @@ Scene nudged(Scene s, double sign) {
 
 /// How far the trial answers to its last digits; infinite if a touch comes or goes.
 double sensitivity(const System& system, const Scene& scene, const Trace& trace) {
-  return std::max(difference(system, trace, run_trial(nudged(scene, 1.0), false)),
-                  difference(system, trace, run_trial(nudged(scene, -1.0), false)));
+  double largest = 0.0;
+  for (int n = 1; n <= kNudges / 2; ++n)
+    for (const double sign : {1.0, -1.0}) {
+      const double part = sign * 2.0 * n / kNudges;
+      largest = std::max(largest, difference(system, trace, run_trial(nudged(scene, part), false)));
+    }
+  return largest;
 }
 
 void compare_with_mirror_image(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
