@@ -16,11 +16,11 @@ std::string number(double value) {
 }
 
 void write_searches(std::ostream& out, const Calibration& calibration, const CalibrationResult& result) {
-  out << "| reading | seed | went on with the rounds | shortfall in the search | facts met on the whole studies "
+  out << "| reading | seed | rounds | shortfall in the search | facts met on the whole studies "
          "|\n|---|---|---|---|---|\n";
   for (const CalibratedSet& set : result.best) {
-    out << "| " << calibration.readings[set.reading].name << " | " << set.seed << " | " << (set.refined ? "yes" : "no")
-        << " | " << number(set.shortfall) << " | ";
+    out << "| " << calibration.readings[set.reading].name << " | " << set.seed << " | " << set.rounds << " | "
+        << number(set.shortfall) << " | ";
     if (set.results.empty())
       out << "not judged |\n";
     else
@@ -55,12 +55,12 @@ void write_calibration_report(std::ostream& out, const Calibration& calibration,
   out << "\nHow many sets meet how many facts, of those that were not given up on the way:\n\n";
   write_counts(out, result);
   out << "\n## The best set\n\nReading: " << calibration.readings[best.reading].name << ".\n\n";
-  out << "| value | found | searched from | to | other searches that went on |\n|---|---|---|---|---|\n";
+  out << "| value | found | searched from | to | other searches that went through rounds |\n|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < best.values.size(); ++i) {
     const CalibrationParameter& parameter = calibration.parameters[i];
     out << "| " << parameter.name << " | " << number(best.values[i]) << " | " << number(parameter.from) << " | "
         << number(parameter.to) << " | ";
-    for (std::size_t other = 1; other < result.best.size() && result.best[other].refined; ++other)
+    for (std::size_t other = 1; other < result.best.size() && result.best[other].rounds > 0; ++other)
       out << (other > 1 ? ", " : "") << number(result.best[other].values[i]);
     out << " |\n";
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <stdexcept>
 #include <thread>
@@ -17,10 +19,13 @@
 namespace vibratory_alignment {
 namespace {
 
+constexpr int kDigits = 4;
+
 void append(const CalibrationSettings& settings, const Table& parameters, FactSettings& all) {
   for (const auto& [study, assignments] : settings)
     for (const auto& [key, formula] : assignments) {
-      const std::string assignment = key + "=" + number_text(evaluate_formula(formula, parameters).front());
+      const std::string value = formula.empty() ? "null" : number_text(evaluate_formula(formula, parameters).front());
+      const std::string assignment = key + "=" + value;
       (study == "all" ? all.all : all.of_study[study]).push_back(assignment);
     }
 }
@@ -41,6 +46,13 @@ void check_names(const Calibration& calibration, const FactSuite& suite) {
   check("settings", calibration.settings);
   for (const CalibrationReading& reading : calibration.readings) check("readings.settings", reading.settings);
   if (!faults.empty()) throw SceneError(calibration.source, faults);
+}
+
+/// To kDigits significant digits, by its text: nothing else is what somebody would write down.
+double rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", kDigits, value);
+  return std::strtod(text, nullptr);
 }
 
 /// Calls work(0) ... work(count - 1), of which so many at a time. Throws what one of them has thrown, the first by
@@ -80,7 +92,8 @@ bool CalibrationPlace::operator<(const CalibrationPlace& other) const {
 }
 
 double CalibrationParameter::value_at(double share) const {
-  return logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+  const double value = logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+  return std::min(to, std::max(from, rounded(value)));
 }
 
 double CalibrationParameter::share_of(double value) const {
@@ -125,19 +138,30 @@ CalibrationResult run_calibration(const Calibration& calibration, const Calibrat
   for (std::size_t job = 0; job < jobs; ++job)
     runs.emplace_back(calibration, job / search.searches, 1 + job % search.searches, suites[job], tally);
 
-  const auto all_of = [&](std::vector<CalibrationRun*> some, const auto& work) {
+  using Runs = std::vector<CalibrationRun*>;
+  const auto all_of = [&](const Runs& some, const auto& work) {
     in_threads(options.threads, some.size(), tally, [&](std::size_t i) { work(*some[i]); });
   };
-  std::vector<CalibrationRun*> order;
+  Runs order;
   for (CalibrationRun& run : runs) order.push_back(&run);
   all_of(order, [](CalibrationRun& run) { run.search_all_ranges(); });
-  const auto less = [](const CalibrationRun* a, const CalibrationRun* b) {
-    return a->best().shortfall < b->best().shortfall;
+  // the searches that go on come first
+  std::size_t going_on = jobs;
+  const auto sort = [&](std::size_t count) {
+    std::stable_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
+                     [](const auto* a, const auto* b) { return a->best().shortfall < b->best().shortfall; });
   };
-  std::stable_sort(order.begin(), order.end(), less);
-  const auto refined = order.begin() + static_cast<std::ptrdiff_t>(std::min(search.refined, jobs));
-  all_of({order.begin(), refined}, [](CalibrationRun& run) { run.refine(); });
-  std::stable_sort(order.begin(), refined, less);
+  const auto first = [&](std::size_t count) {
+    return Runs(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  sort(going_on);
+  for (const CalibrationRound& round : search.rounds) {
+    going_on = std::min(going_on, round.searches);
+    all_of(first(going_on), [&](CalibrationRun& run) { run.search_around(round); });
+    sort(going_on);
+  }
+  all_of(first(going_on), [](CalibrationRun& run) { run.search_nearby(); });
+  sort(going_on);
 
   CalibrationResult result;
   for (const CalibrationRun* run : order) result.best.push_back(run->best());

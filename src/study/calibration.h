@@ -29,11 +29,13 @@ struct CalibrationParameter {
   bool logarithmic = false;
   double start = 0.0;  ///< in the range; the first set of every search
 
-  double value_at(double share) const;  ///< share 0 ... 1 of the range
+  /// share 0 ... 1 of the range; to four digits, so that what is written down of a set is what was judged.
+  double value_at(double share) const;
   double share_of(double value) const;
 };
 
-/// Key path of the scene and a formula of the parameters (formula.h), by study; those of "all" come first.
+/// Key path of the scene and a formula of the parameters (formula.h), by study; those of "all" come first. An empty
+/// formula takes the key out.
 using CalibrationSettings = std::map<std::string, std::vector<std::pair<std::string, std::string>>>;
 
 /// One way to read what the paper says of its model; searched on its own.
@@ -44,7 +46,8 @@ struct CalibrationReading {
 
 /// A look around the best set so far.
 struct CalibrationRound {
-  double reach = 0.0;                  ///< to both sides of the best set, as a share of the ranges
+  std::size_t searches = 1;  ///< that go on to it, those that have found most; no more than in the round before
+  double reach = 0.0;        ///< to both sides of the best set, as a share of the ranges
   std::size_t shared_evaluations = 0;  ///< of the values that all studies have in common
   std::size_t own_evaluations = 0;     ///< of those of each group of studies that has values of its own
   Thinning thinning;                   ///< of the studies
@@ -57,7 +60,7 @@ struct CalibrationSearch {
   Thinning thinning;        ///< of the studies at first
   std::size_t refined = 2;  ///< searches that go on with the rounds
   std::vector<CalibrationRound> rounds;
-  std::size_t local_evaluations = 500;  ///< after the last round, with its thinning
+  std::size_t local_evaluations = 500;  ///< after the last round, of the searches in it, with its thinning
   std::size_t finalists = 2;            ///< sets that are judged on the whole studies
   std::vector<std::string> leave_out;   ///< facts that only the finalists are judged by
 };
@@ -96,7 +99,7 @@ struct CalibrationPlace {
 
 struct CalibratedSet {
   std::size_t reading = 0, seed = 0;
-  bool refined = false;  ///< its search went on with the rounds
+  std::size_t rounds = 0;  ///< that its search went through
   std::vector<double> values;
   double shortfall = 0.0;           ///< on the studies as thinned out at its search's end
   std::vector<FactResult> results;  ///< on the whole studies; only of finalists
@@ -110,8 +113,9 @@ struct CalibrationProgress {
 };
 
 struct CalibrationResult {
-  FactBook book;                    ///< the facts that the results of the finalists belong to
-  std::vector<CalibratedSet> best;  ///< of every search: the finalists, refined ones, others; the best first
+  FactBook book;  ///< the facts that the results of the finalists belong to
+  /// Of every search: first the finalists, those that meet most first; the others by rounds and shortfall.
+  std::vector<CalibratedSet> best;
   std::size_t evaluations = 0, trials = 0;
   std::vector<std::size_t> sets_that_meet;  ///< [n]: sets, of those that were looked at whole, that meet n facts
 };

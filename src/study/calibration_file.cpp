@@ -30,7 +30,10 @@ CalibrationSettings read_settings(TreeReader reader, const std::vector<std::stri
   CalibrationSettings settings;
   for (const std::string& study : studies) {
     TreeReader keys = reader.section(study);
-    for (const std::string& key : keys.keys()) settings[study].emplace_back(key, keys.text(key).value_or(""));
+    for (const std::string& key : keys.keys()) {
+      const bool taken_out = keys.value(key)->IsNull();
+      settings[study].emplace_back(key, taken_out ? "" : keys.text(key).value_or(""));
+    }
   }
   reader.refuse_unknown_keys();
   return settings;
@@ -50,6 +53,7 @@ Thinning read_thinning(TreeReader reader) {
 
 CalibrationRound read_round(TreeReader reader) {
   CalibrationRound round;
+  round.searches = read_count(reader, "searches");
   round.reach = reader.required_number("reach", positive_number);
   round.shared_evaluations = read_count(reader, "shared_evaluations");
   round.own_evaluations = read_count(reader, "own_evaluations");
@@ -64,7 +68,6 @@ CalibrationSearch read_search(TreeReader reader) {
   search.population = read_count(reader, "population");
   search.global_evaluations = read_count(reader, "global_evaluations");
   search.thinning = read_thinning(reader.section("thinning"));
-  search.refined = read_count(reader, "refined");
   for (const TreeReader& round : reader.sections("rounds")) search.rounds.push_back(read_round(round));
   search.local_evaluations = read_count(reader, "local_evaluations");
   search.finalists = read_count(reader, "finalists");

@@ -116,16 +116,17 @@ void CalibrationRun::search_all_ranges() {
   stage(Method::random_search, shortfall_->all(), 1.0, search.population, search.global_evaluations);
 }
 
-void CalibrationRun::refine() {
-  best_.refined = true;
-  for (const CalibrationRound& round : calibration_.search.rounds) {
-    begin(round.thinning);
-    for (const CalibrationGroup& group : shortfall_->groups()) {
-      const bool shared = group.parts.size() == shortfall_->parts().size();
-      stage(Method::random_search, group, round.reach, 1 + kKeptPerValue * group.parameters.size(),
-            shared ? round.shared_evaluations : round.own_evaluations);
-    }
+void CalibrationRun::search_around(const CalibrationRound& round) {
+  ++best_.rounds;
+  begin(round.thinning);
+  for (const CalibrationGroup& group : shortfall_->groups()) {
+    const bool shared = group.parts.size() == shortfall_->parts().size();
+    stage(Method::random_search, group, round.reach, 1 + kKeptPerValue * group.parameters.size(),
+          shared ? round.shared_evaluations : round.own_evaluations);
   }
+}
+
+void CalibrationRun::search_nearby() {
   stage(Method::simplex, shortfall_->all(), kSimplexStep, 0, calibration_.search.local_evaluations);
 }
 

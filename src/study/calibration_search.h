@@ -44,8 +44,9 @@ class CalibrationRun {
                  CalibrationTally& tally);
 
   void search_all_ranges();
-  /// The rounds and what comes after them.
-  void refine();
+  void search_around(const CalibrationRound& round);
+  /// With what the last round has left.
+  void search_nearby();
   const CalibratedSet& best() const { return best_; }
 
  private:

@@ -38,7 +38,8 @@ std::set<std::string> values_of(const CalibrationSettings& settings, const std::
   const auto own = settings.find(study);
   if (own == settings.end()) return names;
   for (const auto& [key, formula] : own->second)
-    for (const std::string& name : names_in_formula(formula)) names.insert(name);
+    if (!formula.empty())
+      for (const std::string& name : names_in_formula(formula)) names.insert(name);
   return names;
 }
 

@@ -46,10 +46,9 @@ search:
   population: 8
   global_evaluations: 60
   thinning: {samples: 1, grid: 1}
-  refined: 2
   rounds:
-    - {reach: 0.1, shared_evaluations: 60, own_evaluations: 60, thinning: {samples: 1, grid: 1}}
-    - {reach: 0.01, shared_evaluations: 60, own_evaluations: 60, thinning: {samples: 1, grid: 1}}
+    - {searches: 2, reach: 0.1, shared_evaluations: 60, own_evaluations: 60, thinning: {samples: 1, grid: 1}}
+    - {searches: 2, reach: 0.01, shared_evaluations: 60, own_evaluations: 60, thinning: {samples: 1, grid: 1}}
   local_evaluations: 60
   finalists: 2
 """
@@ -106,7 +105,7 @@ class CalibrateTest(AlignTestCase):
         self.write("log.jsonl", "".join(lines[:-1] + [json.dumps(last) + "\n"]))
         process = self.calibrate("--log", log, "--resume", "--report", self.path("report.md"))
         self.assertEqual(process.stdout, "")
-        self.assertRegex(self.read("report.md"), r"\| as it is \| \d \| yes \| -5 \|")
+        self.assertRegex(self.read("report.md"), r"\| as it is \| \d \| 2 \| -5 \|")
 
     def test_refuses_logs_that_are_not_its_own(self):
         log = self.path("log.jsonl")

@@ -59,8 +59,7 @@ search:
   population: 8
   global_evaluations: 40
   thinning: {samples: 1, grid: 1}
-  refined: 3
-  rounds: [{reach: 0.2, shared_evaluations: 20, own_evaluations: 20, thinning: {samples: 1, grid: 1}}]
+  rounds: [{searches: 3, reach: 0.2, shared_evaluations: 20, own_evaluations: 20, thinning: {samples: 1, grid: 1}}]
   local_evaluations: 40
   finalists: 2
 )";
@@ -119,12 +118,23 @@ TEST(Calibration, puts_the_formulas_of_a_reading_after_the_others) {
   EXPECT_EQ(settings.of_study.at("blow"), (std::vector<std::string>{"weight=0.1"}));
 }
 
+TEST(Calibration, takes_out_keys_without_a_formula) {
+  Calibration calibration = load_calibration(CalibrationFiles().path());
+  calibration.settings["blow"] = {{"friction.coefficient", ""}};
+  const FactSettings settings = settings_of(calibration, calibration.readings[0], {250.0});
+  EXPECT_EQ(settings.of_study.at("blow"), (std::vector<std::string>{"friction.coefficient=null"}));
+}
+
 TEST(CalibrationParameter, covers_its_range) {
   const CalibrationParameter log{"k", 10.0, 1000.0, true, 100.0}, linear{"f", 1.0, 3.0, false, 2.0};
   EXPECT_NEAR(log.value_at(0.5), 100.0, 1e-12);
   EXPECT_NEAR(log.share_of(100.0), 0.5, 1e-15);
   EXPECT_EQ(linear.value_at(0.5), 2.0);
   EXPECT_EQ(linear.share_of(3.0), 1.0);
+  EXPECT_EQ(linear.value_at(1.0 / 7.0), 1.286);  // four digits
+  const CalibrationParameter narrow{"n", 1.23456, 1.23458, false, 1.23457};
+  EXPECT_GE(narrow.value_at(0.0), 1.23456);
+  EXPECT_LE(narrow.value_at(1.0), 1.23458);
 }
 
 /// Values that no study depends on, or that are searched for in two places, would be a mistake in the file.
