@@ -62,10 +62,12 @@ CalibrationRound read_round(TreeReader reader) {
   return round;
 }
 
-CalibrationSearch read_search(TreeReader reader) {
+CalibrationSearch read_search(TreeReader reader, std::size_t parameters) {
   CalibrationSearch search;
   search.searches = read_count(reader, "searches");
   search.population = read_count(reader, "population");
+  if (search.population <= parameters)
+    reader.fault("population", "must be more than the parameters, " + std::to_string(parameters));
   search.global_evaluations = read_count(reader, "global_evaluations");
   search.thinning = read_thinning(reader.section("thinning"));
   for (const TreeReader& round : reader.sections("rounds")) search.rounds.push_back(read_round(round));
@@ -106,7 +108,7 @@ Calibration load_calibration(const std::string& path) {
     reading.refuse_unknown_keys();
     calibration.readings.push_back(std::move(read));
   }
-  calibration.search = read_search(root.section("search"));
+  calibration.search = read_search(root.section("search"), calibration.parameters.size());
   root.refuse_unknown_keys();
   if (!faults.empty()) throw SceneError(path, faults);
   return calibration;

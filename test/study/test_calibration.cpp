@@ -179,6 +179,8 @@ TEST(CalibrationFile, names_what_is_wrong) {
   EXPECT_TRUE(says(refusal("spacing: log", "spacing: cubic"), "parameters.C1.spacing: cubic"));
   EXPECT_TRUE(says(refusal("population: 8", "popular: 8"), "search.population"));
   EXPECT_TRUE(says(refusal("population: 8", "population: 0"), "search.population: 0"));
+  EXPECT_TRUE(
+      says(refusal("population: 8", "population: 1"), "search.population: 1: must be more than the parameters, 1"));
   EXPECT_TRUE(says(refusal("readings:", "reading:"), "reading"));
   EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.settings.blew: must be `all` or a study of"));
   EXPECT_TRUE(says(refusal("finalists: 2", "finalists: 2\n  leave_out: [Q]"), "search.leave_out: Q: must be the id"));
