@@ -20,7 +20,7 @@ cli11_url=https://github.com/CLIUtils/CLI11/releases/download/v2.1.2/CLI11.hpp
 
 build_packages=(
   g++ make cmake pkg-config catkin ros-message-generation libroscpp-dev librosbag-dev librosbag-storage-dev
-  ros-std-msgs ros-geometry-msgs ros-actionlib-msgs libactionlib-dev libdiagnostic-updater-dev librosgraph-msgs-dev
+  ros-std-msgs ros-geometry-msgs ros-actionlib-msgs libactionlib-dev libdiagnostic-updater-dev libros-rosgraph-msgs-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libstd-srvs-dev ros-std-srvs
   libtf2-ros-dev libtf2-geometry-msgs-dev libtf2-msgs-dev ros-tf2-msgs libvisualization-msgs-dev ros-visualization-msgs
   libboost-dev libeigen3-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libode-dev

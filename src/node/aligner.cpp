@@ -22,6 +22,7 @@ constexpr std::chrono::seconds kSubscriberPatience(30);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
 constexpr std::chrono::milliseconds kIdleWait(50);             ///< longest wait for callbacks
 constexpr double kMasterPatience = 0.5;                        ///< for a master that does not answer [s]
+const ros::WallDuration kFarewell(0.1);                        ///< for what is still to be sent
 const ros::Duration kWallClockCorrection(1.0);                 ///< back by less than this is no jump
 
 }  // namespace
@@ -56,6 +57,12 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   // From here on a dead master must not stop the trial: a changed setting is told to it, and that blocks until it
   // answers.
   ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
+  std::vector<std::string> services;
+  for (const ros::ServiceServer& service : services_) services.push_back(service.getService());
+  for (const char* name : {"set_parameters", "get_loggers", "set_logger_level"}) {
+    services.push_back(handle_.resolveName(name));
+  }
+  master_watch_.emplace(std::move(services));
 }
 
 template <class Message>
@@ -98,8 +105,14 @@ double Aligner::due_in() const {
   return std::max(0.0, std::chrono::duration<double>(due - Clock::now()).count());
 }
 
-void Aligner::spin() {
-  while (ros::ok()) {
+void Aligner::spin(const std::function<bool()>& interrupted) {
+  run_until(interrupted);
+  if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), "the node ends");
+  if (ros::ok()) kFarewell.sleep();
+}
+
+void Aligner::run_until(const std::function<bool()>& interrupted) {
+  while (ros::ok() && !interrupted()) {
     if (activity_ == Activity::waiting) wait_for_subscribers();
     if (activity_ == Activity::running) publish_due_samples();
     if (align_server_.active() && Clock::now() >= align_server_.feedback_due()) {

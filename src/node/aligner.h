@@ -5,6 +5,7 @@
 // last one that was published. aligner.cpp runs and publishes, aligner_requests.cpp answers what has arrived.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@
 #include "model/scene.h"
 #include "node/align_server.h"
 #include "node/diagnostics.h"
+#include "node/master_watch.h"
 #include "node/node_parameters.h"
 #include "node/pace_meter.h"
 #include "node/pacer.h"
@@ -42,8 +44,9 @@ class Aligner {
   /// Throws as Simulation does when the scene has no start, and ParameterError when it cannot publish the clock.
   Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters);
 
-  /// Runs until ROS shuts down, or until the trial is done and ~exit_when_done.
-  void spin();
+  /// Runs until ROS shuts down, interrupted() is true, or the trial is done and ~exit_when_done. What has been
+  /// published then gets the time to go out.
+  void spin(const std::function<bool()>& interrupted);
 
  private:
   using Clock = Pacer::Clock;
@@ -51,6 +54,7 @@ class Aligner {
   enum class Activity { waiting, paused, running, ended };
 
   void advertise();
+  void run_until(const std::function<bool()>& interrupted);
   template <class Message>
   SampleTopic advertise_samples(const std::string& name);
   bool on_start(Trigger::Request&, Trigger::Response& response);
@@ -104,6 +108,7 @@ class Aligner {
   boost::recursive_mutex settings_mutex_;
   dynamic_reconfigure::Server<AlignerConfig> settings_server_;
   AlignServer align_server_;
+  std::optional<MasterWatch> master_watch_;
 };
 
 }  // namespace vibratory_alignment
