@@ -78,7 +78,8 @@ class BadStart(unittest.TestCase):
     def test_parameters_of_the_node(self):
         for name, value in (('time_scale', -1.0), ('time_scale', float('nan')), ('publish_rate', 0),
                             ('autostart', 'maybe'), ('slot_position', [1, 2]), ('wait_for_subscribers', 'nonsense'),
-                            ('tf_prefix', '/left')):
+                            ('tf_prefix', '/left'), ('feedback_rate', 0), ('publish_clock', 'yes'),
+                            ('publish_clock', True)):
             rospy.set_param('/bad/scene', self.scene)
             rospy.set_param('/bad/' + name, value)
             self.assert_refused('/bad/' + name)
