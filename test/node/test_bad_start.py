@@ -85,6 +85,15 @@ class BadStart(unittest.TestCase):
             self.assert_refused('/bad/' + name)
             rospy.delete_param('/bad')
 
+    def test_nan_and_infinity_in_every_number(self):
+        numbers = ('time_scale', 'publish_rate', 'sample_interval', 'linger', 'feedback_rate')
+        for value in (float('nan'), float('inf'), float('-inf')):
+            rospy.set_param('/bad/scene', self.scene)
+            for name in numbers:
+                rospy.set_param('/bad/' + name, value)
+            rospy.set_param('/bad/slot_position', [0.0, value, 0.0])
+            self.assert_refused(*('/bad/%s: ' % name for name in numbers + ('slot_position',)))
+
 
 if __name__ == '__main__':
     rostest.rosrun('vibratory_alignment', 'bad_start', BadStart)
