@@ -31,8 +31,9 @@ run_packages=(
   python3-rosbag python3-rosparam python3-rospkg python3-yaml tf2-tools python3-matplotlib
   python3-std-msgs python3-std-srvs python3-geometry-msgs python3-tf2-msgs python3-visualization-msgs
 )
-test_packages=(librostest-dev python3-rostest libgtest-dev libgmock-dev)
-rviz_packages=(rviz)
+rviz_packages=(rviz librviz-dev)
+# with a virtual screen, and OpenGL without a graphics card
+test_packages=(librostest-dev python3-rostest libgtest-dev libgmock-dev "${rviz_packages[@]}" xvfb xauth libgl1-mesa-dri)
 
 say() { printf '\n==> %s\n' "$*"; }
 note() { printf '    %s\n' "$*"; }

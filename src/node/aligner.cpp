@@ -9,6 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "model/scene_loader.h"
+#include "node/scene_service.h"
 #include "node/transforms.h"
 
 namespace vibratory_alignment {
@@ -64,7 +65,8 @@ void Aligner::advertise() {
   services_ = {handle_.advertiseService("start", &Aligner::on_start, this),
                handle_.advertiseService("pause", &Aligner::on_pause, this),
                handle_.advertiseService("step", &Aligner::on_step, this),
-               handle_.advertiseService("reset", &Aligner::on_reset, this)};
+               handle_.advertiseService("reset", &Aligner::on_reset, this),
+               advertise_load_scene(handle_, [this](const Scene& scene) { return change_scene(scene); })};
   static_transforms_.sendTransform(
       static_transforms(scene_, messages_.frames(), parameters_.slot_position, next_stamp()));
 }
@@ -234,14 +236,36 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
     response.message = error.what();
     return true;
   }
-  if (activity_ != Activity::waiting) {
-    activity_ = Activity::paused;
-    publishers_["markers"].publish(markers_.clear(next_stamp()));
-    publish_next();
-  }
+  show_start();
   response.success = true;
   response.message = "paused at the start";
   return true;
+}
+
+/// Publishes the start of the trial in the place of what is shown.
+void Aligner::show_start() {
+  if (activity_ == Activity::waiting) return;
+  activity_ = Activity::paused;
+  publishers_["markers"].publish(markers_.clear(next_stamp()));
+  publish_next();
+}
+
+std::string Aligner::change_scene(const Scene& scene) {
+  // A scene without scales has another time, for which another slow motion is of use.
+  const bool same_time = scene.scales.has_value() == scene_.scales.has_value();
+  NodeParameters parameters = parameters_;
+  parameters.time_scale = same_time ? settings_.config().time_scale : usual_time_scale(scene);
+  const DriveSettings settings(scene, parameters.time_scale);
+  trial_.change_scene(scene, sample_interval(parameters, scene));
+  scene_ = scene;
+  settings_ = settings;
+  messages_ = Messages(scene, messages_.frames());
+  markers_ = Markers(scene, messages_.frames());
+  static_transforms_.sendTransform(
+      static_transforms(scene_, messages_.frames(), parameters_.slot_position, next_stamp()));
+  settings_server_.updateConfig(settings_.config());
+  show_start();
+  return scene.name + ": paused at the start";
 }
 
 void Aligner::on_settings(AlignerConfig& requested) {

@@ -48,6 +48,8 @@ class Aligner {
   bool on_step(Trigger::Request&, Trigger::Response& response);
   bool on_reset(Trigger::Request&, Trigger::Response& response);
   void on_settings(AlignerConfig& requested);
+  std::string change_scene(const Scene& scene);
+  void show_start();
 
   void wait_for_subscribers();
   void run();

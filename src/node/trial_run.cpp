@@ -6,8 +6,16 @@ namespace vibratory_alignment {
 
 TrialRun::TrialRun(const Scene& scene, double interval) : scene_(scene), interval_(interval) { restart(); }
 
-void TrialRun::restart() {
-  Simulation simulation(scene_);
+void TrialRun::restart() { begin(Simulation(scene_)); }
+
+void TrialRun::change_scene(const Scene& scene, double interval) {
+  Simulation simulation(scene);
+  scene_ = scene;
+  interval_ = interval;
+  begin(std::move(simulation));
+}
+
+void TrialRun::begin(Simulation simulation) {
   sampler_.reset();
   simulation_.emplace(std::move(simulation));
   sampler_.emplace(*simulation_, interval_);

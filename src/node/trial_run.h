@@ -37,10 +37,14 @@ class TrialRun {
   /// Simulation does; then the trial goes on as it was.
   void restart();
 
+  /// Puts another scene in the place of this one, at its start. Throws as Simulation does; then nothing changes.
+  void change_scene(const Scene& scene, double interval);
+
   /// Of the trial so far.
   TrialResult result() const { return simulation_->result(); }
 
  private:
+  void begin(Simulation simulation);
   void apply_changes();
 
   Scene scene_;  ///< with all changes
