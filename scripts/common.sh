@@ -20,7 +20,7 @@ cli11_url=https://github.com/CLIUtils/CLI11/releases/download/v2.1.2/CLI11.hpp
 
 build_packages=(
   g++ make cmake pkg-config catkin ros-message-generation libroscpp-dev librosbag-dev librosbag-storage-dev
-  ros-std-msgs ros-geometry-msgs ros-actionlib-msgs libactionlib-dev libdiagnostic-updater-dev
+  ros-std-msgs ros-geometry-msgs ros-actionlib-msgs libactionlib-dev libdiagnostic-updater-dev libros-rosgraph-msgs-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libstd-srvs-dev ros-std-srvs
   libtf2-ros-dev libtf2-geometry-msgs-dev libtf2-msgs-dev ros-tf2-msgs libvisualization-msgs-dev ros-visualization-msgs
   libboost-dev libeigen3-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libode-dev
@@ -30,10 +30,15 @@ run_packages=(
   rosbash python3-roslaunch python3-rospy python3-rostopic python3-rosnode python3-rosservice python3-rosmsg
   python3-rosbag python3-rosparam python3-rospkg python3-yaml tf2-tools python3-matplotlib
   python3-std-msgs python3-std-srvs python3-geometry-msgs python3-tf2-msgs python3-visualization-msgs
+  python3-actionlib python3-actionlib-msgs
 )
 rviz_packages=(rviz librviz-dev)
 # with a virtual screen, and OpenGL without a graphics card
-test_packages=(librostest-dev python3-rostest libgtest-dev libgmock-dev "${rviz_packages[@]}" xvfb xauth libgl1-mesa-dri)
+test_packages=(
+  librostest-dev python3-rostest python3-diagnostic-msgs libgtest-dev libgmock-dev
+  "${rviz_packages[@]}" xvfb xauth libgl1-mesa-dri
+  ros-robot-state-publisher liburdfdom-tools
+)
 
 say() { printf '\n==> %s\n' "$*"; }
 note() { printf '    %s\n' "$*"; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <ros/callback_queue.h>
+#include <std_msgs/UInt32.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "model/scene_loader.h"
@@ -15,38 +16,54 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 1000;                 ///< messages kept for a slow subscriber
 constexpr std::chrono::milliseconds kPublishingTurn(20);   ///< then callbacks get theirs
 constexpr std::chrono::milliseconds kPictureInterval(33);  ///< of wall time between two ~markers
 constexpr std::chrono::milliseconds kLongestLag(500);      ///< behind the wall clock, then the pace starts anew
 constexpr std::chrono::seconds kSubscriberPatience(30);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
-constexpr double kIdleWait = 0.05;                             ///< longest wait for callbacks [s]
+constexpr std::chrono::milliseconds kIdleWait(50);             ///< longest wait for callbacks
 constexpr double kMasterPatience = 0.5;                        ///< for a master that does not answer [s]
+const ros::WallDuration kFarewell(0.1);                        ///< for what is still to be sent
+const ros::Duration kWallClockCorrection(1.0);                 ///< back by less than this is no jump
 
 }  // namespace
 
+void warn_without_scales(const Scene& scene) {
+  if (scene.scales) return;
+  ROS_WARN("%s: the scene has no scales: 1 unit of length is published as 1 m, of time as 1 s, of force as 1 N",
+           scene.name.c_str());
+}
+
 Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters)
     : handle_(private_handle),
-      scene_(scene),
       parameters_(parameters),
-      messages_(scene, frames_with_prefix(parameters.tf_prefix)),
-      markers_(scene, messages_.frames()),
-      trial_(scene, sample_interval(parameters, scene)),
-      settings_(scene, parameters.time_scale),
-      settings_server_(settings_mutex_, private_handle) {
-  if (!scene.scales) {
-    ROS_WARN("%s: the scene has no scales: 1 unit of length is published as 1 m, of time as 1 s, of force as 1 N",
-             scene.name.c_str());
-  }
+      frames_(frames_with_prefix(parameters.tf_prefix)),
+      stage_(std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_,
+                                     sample_interval(parameters, scene))),
+      first_interval_(stage_->interval),
+      first_time_unit_(stage_->seconds(1.0)),
+      stamps_(ros::Time::isSimTime() ? ros::Duration() : kWallClockCorrection),
+      diagnostics_(private_handle),
+      settings_server_(settings_mutex_, private_handle),
+      align_server_(
+          private_handle, parameters.feedback_rate, [this](const AlignGoal& goal) { on_goal(goal); },
+          [this] { on_cancel(); }) {
+  warn_without_scales(scene);
+  if (parameters.publish_clock) sim_clock_.emplace(private_handle);
   pacer_.start(parameters.time_scale, Clock::now(), 0.0);
   advertise();
-  settings_server_.updateConfig(settings_.config());
+  settings_server_.updateConfig(stage_->settings.config());
   settings_server_.setCallback([this](AlignerConfig& requested, std::uint32_t) { on_settings(requested); });
   waiting_since_ = Clock::now();
   // From here on a dead master must not stop the trial: a changed setting is told to it, and that blocks until it
   // answers.
   ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
+  std::vector<std::string> services;
+  for (const ros::ServiceServer& service : services_) services.push_back(service.getService());
+  for (const char* name : {"set_parameters", "get_loggers", "set_logger_level"}) {
+    services.push_back(handle_.resolveName(name));
+  }
+  master_watch_.emplace(std::move(services));
 }
 
 template <class Message>
@@ -65,26 +82,51 @@ void Aligner::advertise() {
   services_ = {handle_.advertiseService("start", &Aligner::on_start, this),
                handle_.advertiseService("pause", &Aligner::on_pause, this),
                handle_.advertiseService("step", &Aligner::on_step, this),
+               handle_.advertiseService("step_by", &Aligner::on_step_by, this),
                handle_.advertiseService("reset", &Aligner::on_reset, this),
                advertise_load_scene(handle_, [this](const Scene& scene) { return change_scene(scene); })};
-  static_transforms_.sendTransform(
-      static_transforms(scene_, messages_.frames(), parameters_.slot_position, next_stamp()));
+  restart_publisher_ = handle_.advertise<std_msgs::UInt32>("restarts", 1, true);
+  announce_restart();
+  publish_static_transforms();
 }
 
-void Aligner::spin() {
-  while (ros::ok()) {
-    double wait = kIdleWait;
+void Aligner::publish_static_transforms() {
+  static_transforms_.sendTransform(static_transforms(stage_->scene, frames_, parameters_.slot_position, next_stamp()));
+}
+
+void Aligner::set_activity(Activity activity) {
+  activity_ = activity;
+  pace_meter_.set_running(activity == Activity::running, Clock::now());
+}
+
+/// The time until something is to be done, unless a request arrives [s].
+double Aligner::due_in() const {
+  Clock::time_point due = Clock::now() + kIdleWait;
+  if (activity_ == Activity::running) due = std::min(due, pacer_.due(next_due()));
+  if (align_server_.active()) due = std::min(due, align_server_.feedback_due());
+  return std::max(0.0, std::chrono::duration<double>(due - Clock::now()).count());
+}
+
+void Aligner::spin(const std::function<bool()>& interrupted) {
+  run_until(interrupted);
+  if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), "the node ends");
+  if (ros::ok()) kFarewell.sleep();
+}
+
+void Aligner::run_until(const std::function<bool()>& interrupted) {
+  while (ros::ok() && !interrupted()) {
     if (activity_ == Activity::waiting) wait_for_subscribers();
     if (activity_ == Activity::running) publish_due_samples();
-    if (activity_ == Activity::running) {
-      const std::chrono::duration<double> to_next = pacer_.due(to_seconds(trial_.next_time())) - Clock::now();
-      wait = std::clamp(to_next.count(), 0.0, kIdleWait);
+    if (align_server_.active() && Clock::now() >= align_server_.feedback_due()) {
+      align_server_.give_feedback(stage_->messages, activity_ != Activity::running);
     }
+    if (sim_clock_) sim_clock_->repeat();
+    if (diagnostics_.due()) report_health();
     if (activity_ == Activity::ended && parameters_.exit_when_done &&
         Clock::now() - ended_at_ >= std::chrono::duration<double>(parameters_.linger)) {
       return;
     }
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait));
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(due_in()));
   }
 }
 
@@ -104,184 +146,137 @@ void Aligner::wait_for_subscribers() {
     return;
   }
   if (!settled) ROS_WARN("~wait_for_subscribers: not all topics have a subscriber; starting without them");
-  activity_ = Activity::paused;
+  set_activity(Activity::paused);
+  next_picture_ = {};
   publish_next();
   if (parameters_.autostart && activity_ == Activity::paused) run();
 }
 
 void Aligner::run() {
-  pacer_.start(settings_.config().time_scale, Clock::now(), to_seconds(trial_.time()));
-  activity_ = Activity::running;
+  pacer_.start(stage_->settings.config().time_scale, Clock::now(), stage_->seconds(stage_->trial.time()));
+  set_activity(Activity::running);
 }
 
 void Aligner::publish_due_samples() {
   const Clock::time_point turn_end = Clock::now() + kPublishingTurn;
   Clock::time_point now = Clock::now();
-  Clock::time_point due = pacer_.due(to_seconds(trial_.next_time()));
+  Clock::time_point due = pacer_.due(next_due());
   while (activity_ == Activity::running && due <= now && now < turn_end) {
     publish_next();
-    due = pacer_.due(to_seconds(trial_.next_time()));
+    due = pacer_.due(next_due());
     now = Clock::now();
   }
   if (activity_ == Activity::running && pacer_.time_scale() > 0.0 && now - due > kLongestLag) {
     ROS_WARN_THROTTLE(10.0, "Cannot keep up with ~time_scale %g: simulated time runs slower", pacer_.time_scale());
-    pacer_.start(pacer_.time_scale(), now, to_seconds(trial_.time()));
+    pace_meter_.add_dropped(std::chrono::duration<double>(now - due).count());
+    pacer_.start(pacer_.time_scale(), now, stage_->seconds(stage_->trial.time()));
   }
 }
 
-void Aligner::publish_next() {
+/// False: there was none.
+bool Aligner::publish_next() {
+  const double before = stage_->trial.time();
   Sample sample;
   try {
-    if (trial_.next(sample)) publish(sample);
+    if (!stage_->trial.next(sample)) return false;
   } catch (const SceneError& error) {
     // settings changed before the start may leave the scene without one
-    ROS_ERROR("The trial cannot start with these settings: %s", error.what());
-    activity_ = Activity::paused;
-    return;
+    const std::string text = std::string("The trial cannot start with these settings: ") + error.what();
+    ROS_ERROR("%s", text.c_str());
+    set_activity(Activity::paused);
+    if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), text);
+    return false;
   }
-  if (trial_.ended()) finish();
+  pace_meter_.add_sample(stage_->seconds(sample.time - before));
+  publish(sample);
+  if (stage_->trial.ended()) finish();
+  return true;
 }
 
 void Aligner::publish(const Sample& sample) {
   const ros::Time stamp = next_stamp();
   bool queued = transforms_.queue([&] {
     tf2_msgs::TFMessage moving;
-    moving.transforms = {part_transform(sample.state, messages_.units().length, messages_.frames(), stamp)};
+    moving.transforms = {part_transform(sample.state, stage_->messages.units().length, frames_, stamp)};
     return moving;
   });
-  queued |= state_.queue([&] { return messages_.state(sample, stamp); });
-  queued |= reaction_a1_.queue([&] { return messages_.reaction(sample, Site::a1, stamp); });
-  queued |= reaction_a2_.queue([&] { return messages_.reaction(sample, Site::a2, stamp); });
-  queued |= contacts_.queue([&] { return messages_.contacts(sample, stamp); });
+  queued |= state_.queue([&] { return stage_->messages.state(sample, stamp); });
+  queued |= reaction_a1_.queue([&] { return stage_->messages.reaction(sample, Site::a1, stamp); });
+  queued |= reaction_a2_.queue([&] { return stage_->messages.reaction(sample, Site::a2, stamp); });
+  queued |= contacts_.queue([&] { return stage_->messages.contacts(sample, stamp); });
   if (queued) send_queued_messages();
-  markers_.add(sample);
-  if (activity_ != Activity::running || Clock::now() >= next_picture_) publish_markers(stamp);
+  stage_->markers.add(sample);
+  align_server_.add(sample);
+  if (Clock::now() >= next_picture_) publish_markers(stamp);
 }
 
 void Aligner::publish_markers(const ros::Time& stamp) {
   next_picture_ = Clock::now() + kPictureInterval;
-  publishers_["markers"].publish(markers_.draw(stamp));
+  publishers_["markers"].publish(stage_->markers.draw(stamp));
 }
 
 void Aligner::finish() {
-  const TrialResult result = trial_.result();
-  markers_.set_outcome(result.outcome);
-  publish_markers(last_stamp_);
-  publishers_["result"].publish(messages_.result(result, last_stamp_));
-  activity_ = Activity::ended;
+  const TrialResult result = stage_->trial.result();
+  stage_->markers.set_outcome(result.outcome);
+  publish_markers(stamps_.last());
+  publishers_["result"].publish(stage_->messages.result(result, stamps_.last()));
+  set_activity(Activity::ended);
   ended_at_ = Clock::now();
+  std::string text = std::string(to_string(result.outcome)) + " at " + time_text();
   if (result.outcome == Outcome::failed) {
-    ROS_ERROR("%s: failed at %s: %s", result.scene.c_str(), time_text().c_str(), result.failure.c_str());
+    text += ": " + result.failure;
+    ROS_ERROR("%s: %s", result.scene.c_str(), text.c_str());
   } else {
-    ROS_INFO("%s: %s at %s, mode %s", result.scene.c_str(), to_string(result.outcome), time_text().c_str(),
-             to_string(result.mode));
+    text += std::string(", mode ") + to_string(result.mode);
+    ROS_INFO("%s: %s", result.scene.c_str(), text.c_str());
   }
+  diagnostics_.set_last_outcome(result);
+  if (align_server_.active()) align_server_.finish(stage_->messages, result, text);
 }
 
-/// ROS time, but never 0 and never the same twice, whatever the clock does; a clock that was set back is followed.
+void Aligner::report_health() {
+  static constexpr const char* kActivities[] = {"waiting", "paused", "running", "ended"};
+  const Clock::time_point now = Clock::now();
+  NodeStatus status;
+  status.activity = kActivities[static_cast<int>(activity_)];
+  status.goal_active = align_server_.active();
+  status.trial = stage_->trial.result();
+  status.tau_text = time_text();
+  status.time_scale = stage_->settings.config().time_scale;
+  status.sample_rate = status.time_scale / stage_->seconds(stage_->interval);
+  if (activity_ == Activity::running && status.time_scale > 0.0) {
+    status.lag = std::max(0.0, std::chrono::duration<double>(now - pacer_.due(next_due())).count());
+  }
+  status.pace = pace_meter_.take(now);
+  diagnostics_.publish(status);
+}
+
+/// Samples of all scenes come after the same simulated time, except with ~time_scale 0.
+double Aligner::interval_of(const Scene& scene) const {
+  if (!parameters_.sample_interval && parameters_.time_scale == 0.0) return sample_interval(parameters_, scene);
+  return first_interval_ * (first_time_unit_ / ros_units(scene).time);
+}
+
 ros::Time Aligner::next_stamp() {
-  const ros::Time now = ros::Time::now();
-  const bool set_back = now + ros::Duration(1.0) < last_stamp_;
-  const ros::Time least = last_stamp_ + ros::Duration(0, 1);
-  last_stamp_ = now < least && !(set_back && !now.isZero()) ? least : now;
-  return last_stamp_;
+  if (!sim_clock_) return stamps_.next(ros::Time::now());
+  const ros::Time stamp = stamps_.next(sim_clock_->at(stage_->seconds(stage_->trial.time())));
+  sim_clock_->publish(stamp);
+  return stamp;
+}
+
+/// Tells that simulated time begins anew, before it does.
+void Aligner::announce_restart() {
+  std_msgs::UInt32 message;
+  message.data = restarts_++;
+  restart_publisher_.publish(message);
 }
 
 std::string Aligner::time_text() const {
   std::ostringstream text;
-  text << "tau = " << trial_.time();
-  if (scene_.scales) text << " (" << to_seconds(trial_.time()) << " s)";
+  const double tau = stage_->trial.time();
+  text << "tau = " << tau;
+  if (stage_->scene.scales) text << " (" << stage_->seconds(tau) << " s)";
   return text.str();
-}
-
-bool Aligner::on_start(Trigger::Request&, Trigger::Response& response) {
-  response.success = activity_ != Activity::ended;
-  if (activity_ == Activity::waiting) {
-    parameters_.autostart = true;
-    response.message = "starts as soon as the subscribers are there";
-  } else if (activity_ == Activity::ended) {
-    response.message = "the trial has ended; reset it first";
-  } else {
-    if (activity_ == Activity::paused) run();
-    response.message = "running";
-  }
-  return true;
-}
-
-bool Aligner::on_pause(Trigger::Request&, Trigger::Response& response) {
-  response.success = activity_ != Activity::ended;
-  if (activity_ == Activity::waiting) parameters_.autostart = false;
-  if (activity_ == Activity::running) activity_ = Activity::paused;
-  response.message = response.success ? "paused at " + time_text() : "the trial has ended";
-  return true;
-}
-
-bool Aligner::on_step(Trigger::Request&, Trigger::Response& response) {
-  response.success = activity_ == Activity::running || activity_ == Activity::paused;
-  if (!response.success) {
-    response.message = activity_ == Activity::ended ? "the trial has ended; reset it first" : "not started yet";
-    return true;
-  }
-  activity_ = Activity::paused;
-  publish_next();
-  response.message = "at " + time_text();
-  return true;
-}
-
-bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
-  try {
-    trial_.restart();
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-    return true;
-  }
-  show_start();
-  response.success = true;
-  response.message = "paused at the start";
-  return true;
-}
-
-/// Publishes the start of the trial in the place of what is shown.
-void Aligner::show_start() {
-  if (activity_ == Activity::waiting) return;
-  activity_ = Activity::paused;
-  publishers_["markers"].publish(markers_.clear(next_stamp()));
-  publish_next();
-}
-
-std::string Aligner::change_scene(const Scene& scene) {
-  // A scene without scales has another time, for which another slow motion is of use.
-  const bool same_time = scene.scales.has_value() == scene_.scales.has_value();
-  NodeParameters parameters = parameters_;
-  parameters.time_scale = same_time ? settings_.config().time_scale : usual_time_scale(scene);
-  const DriveSettings settings(scene, parameters.time_scale);
-  trial_.change_scene(scene, sample_interval(parameters, scene));
-  scene_ = scene;
-  settings_ = settings;
-  messages_ = Messages(scene, messages_.frames());
-  markers_ = Markers(scene, messages_.frames());
-  static_transforms_.sendTransform(
-      static_transforms(scene_, messages_.frames(), parameters_.slot_position, next_stamp()));
-  settings_server_.updateConfig(settings_.config());
-  show_start();
-  return scene.name + ": paused at the start";
-}
-
-void Aligner::on_settings(AlignerConfig& requested) {
-  const AlignerConfig before = settings_.config();
-  for (const std::string& refusal : settings_.change(requested)) ROS_WARN("Refused: %s", refusal.c_str());
-  const AlignerConfig& after = settings_.config();
-  if (after.enabled != before.enabled || after.amplitude != before.amplitude || after.frequency != before.frequency ||
-      after.phase != before.phase || after.waveform != before.waveform) {
-    trial_.set_excitations(settings_.excitations());
-  }
-  if (after.pressing_force != before.pressing_force) trial_.set_pressing_force(*settings_.pressing_force());
-  if (after.time_scale != before.time_scale) {
-    const Clock::time_point now = Clock::now();
-    const double reached = std::clamp(pacer_.simulated(now), to_seconds(trial_.time()), to_seconds(trial_.next_time()));
-    pacer_.start(after.time_scale, now, reached);
-  }
 }
 
 }  // namespace vibratory_alignment

@@ -2,10 +2,13 @@
 //
 // One thread does everything: spin() publishes what is due, then handles what has arrived (services, settings), and so
 // on. A change of the settings therefore always falls between two samples, and enters the motion at the instant of the
-// last one that was published.
+// last one that was published. aligner.cpp runs and publishes, aligner_requests.cpp answers what has arrived.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,26 +17,36 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <vibratory_alignment/AlignerConfig.h>
+#include <vibratory_alignment/StepBy.h>
 #include <boost/thread/recursive_mutex.hpp>
 
 #include "model/scene.h"
-#include "node/drive_settings.h"
-#include "node/markers.h"
-#include "node/messages.h"
+#include "node/align_server.h"
+#include "node/diagnostics.h"
+#include "node/master_watch.h"
 #include "node/node_parameters.h"
+#include "node/pace_meter.h"
 #include "node/pacer.h"
 #include "node/sample_topic.h"
-#include "node/trial_run.h"
+#include "node/sim_clock.h"
+#include "node/stage.h"
+#include "node/stamps.h"
 
 namespace vibratory_alignment {
 
+constexpr std::uint32_t kQueueSize = 1000;  ///< messages kept for a slow subscriber
+
+/// Says that a scene without scales has no SI units.
+void warn_without_scales(const Scene& scene);
+
 class Aligner {
  public:
-  /// Throws as Simulation does when the scene has no start.
+  /// Throws as Simulation does when the scene has no start, and ParameterError when it cannot publish the clock.
   Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters);
 
-  /// Runs until ROS shuts down, or until the trial is done and ~exit_when_done.
-  void spin();
+  /// Runs until ROS shuts down, interrupted() is true, or the trial is done and ~exit_when_done. What has been
+  /// published then gets the time to go out.
+  void spin(const std::function<bool()>& interrupted);
 
  private:
   using Clock = Pacer::Clock;
@@ -41,47 +54,64 @@ class Aligner {
   enum class Activity { waiting, paused, running, ended };
 
   void advertise();
+  void run_until(const std::function<bool()>& interrupted);
   template <class Message>
   SampleTopic advertise_samples(const std::string& name);
   bool on_start(Trigger::Request&, Trigger::Response& response);
   bool on_pause(Trigger::Request&, Trigger::Response& response);
   bool on_step(Trigger::Request&, Trigger::Response& response);
+  bool on_step_by(StepBy::Request& request, StepBy::Response& response);
   bool on_reset(Trigger::Request&, Trigger::Response& response);
   void on_settings(AlignerConfig& requested);
   std::string change_scene(const Scene& scene);
-  void show_start();
+  void on_goal(const AlignGoal& goal);
+  void on_cancel();
 
+  void change_stage(std::unique_ptr<Stage> next, bool other_scene);
+  void show_start();
+  void set_activity(Activity activity);
   void wait_for_subscribers();
   void run();
+  double due_in() const;
   void publish_due_samples();
-  void publish_next();
+  bool publish_next();
   void publish(const Sample& sample);
   void publish_markers(const ros::Time& stamp);
+  void publish_static_transforms();
+  void announce_restart();
   void finish();
+  long step(long samples);
+  void report_health();
 
+  double interval_of(const Scene& scene) const;
+  double next_due() const { return stage_->seconds(stage_->trial.next_time()); }
   ros::Time next_stamp();
-  double to_seconds(double time) const { return time * messages_.units().time; }
   std::string time_text() const;
 
   ros::NodeHandle handle_;
-  Scene scene_;
   NodeParameters parameters_;
-  Messages messages_;
-  Markers markers_;
-  TrialRun trial_;
-  DriveSettings settings_;
+  Frames frames_;
+  std::unique_ptr<Stage> stage_;
+  const double first_interval_, first_time_unit_;  ///< sample interval and seconds per unit of time of the first scene
   Pacer pacer_;
+  PaceMeter pace_meter_;
   Activity activity_ = Activity::waiting;
   Clock::time_point waiting_since_, all_subscribed_at_, next_picture_, ended_at_;
   bool all_subscribed_ = false;
-  ros::Time last_stamp_;
+  std::optional<SimClock> sim_clock_;
+  Stamps stamps_;
+  std::uint32_t restarts_ = 0;
 
   std::map<std::string, ros::Publisher> publishers_;  ///< by the names in topic_names()
+  ros::Publisher restart_publisher_;
   std::vector<ros::ServiceServer> services_;
   SampleTopic transforms_, state_, reaction_a1_, reaction_a2_, contacts_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
+  Diagnostics diagnostics_;
   boost::recursive_mutex settings_mutex_;
   dynamic_reconfigure::Server<AlignerConfig> settings_server_;
+  AlignServer align_server_;
+  std::optional<MasterWatch> master_watch_;
 };
 
 }  // namespace vibratory_alignment

@@ -1,5 +1,6 @@
 // aligner_node: one alignment trial as a ROS node. docs/node.md lists its parameters, topics, services and settings.
-// Exit status: 0 it ran, 1 it could not start (bad scene, bad parameters).
+// SIGINT and SIGTERM end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene, bad parameters).
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <sstream>
@@ -13,6 +14,10 @@
 
 namespace {
 
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void on_signal(int) { interrupted = 1; }
+
 /// One log entry a line: a scene may have many faults.
 int fail(const std::string& message) {
   std::istringstream lines(message);
@@ -24,12 +29,14 @@ int fail(const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace vibratory_alignment;
-  ros::init(argc, argv, "aligner");
+  ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
   const ros::NodeHandle private_handle("~");
   try {
     const Scene scene = scene_from_params(private_handle);
     Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene));
-    aligner.spin();
+    aligner.spin([] { return interrupted != 0; });
   } catch (const std::exception& error) {
     return fail(error.what());
   }

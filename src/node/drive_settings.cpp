@@ -92,6 +92,15 @@ std::vector<std::string> DriveSettings::change(AlignerConfig& requested) {
   return refusals;
 }
 
+Scene DriveSettings::applied_to(Scene scene) const {
+  scene.excitations = excitations();
+  if (config_.pressing_force != scene_config_.pressing_force) {
+    scene.gripper.pressing_force = pressing_force();
+    scene.gripper.anchor_y.reset();
+  }
+  return scene;
+}
+
 std::vector<Excitation> DriveSettings::excitations() const {
   std::vector<Excitation> excitations = scene_excitations_;
   if (excitations.empty()) return excitations;

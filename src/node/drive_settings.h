@@ -24,6 +24,9 @@ class DriveSettings {
   /// line for each value refused: NaN and infinity, a waveform or force that the scene has no ground for.
   std::vector<std::string> change(AlignerConfig& requested);
 
+  /// The scene with the values in force; those that nobody has changed to the last bit as they are there.
+  Scene applied_to(Scene scene) const;
+
   /// All excitations of the scene, the first as it is set now; amplitude 0 while it is not enabled.
   std::vector<Excitation> excitations() const;
 

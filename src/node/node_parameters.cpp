@@ -111,6 +111,11 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
   parameters.exit_when_done = reader.flag("exit_when_done", parameters.exit_when_done);
   parameters.linger = reader.number("linger", "must be a number >= 0 [s]", [](double value) { return value >= 0.0; })
                           .value_or(parameters.linger);
+  parameters.feedback_rate = reader
+                                 .number("feedback_rate", "must be a number from 0.01 to 1000 [1/s]",
+                                         [](double value) { return value >= 0.01 && value <= 1000.0; })
+                                 .value_or(parameters.feedback_rate);
+  parameters.publish_clock = reader.flag("publish_clock", parameters.publish_clock);
   parameters.tf_prefix = reader.text("tf_prefix");
   if (!parameters.tf_prefix.empty() && (parameters.tf_prefix.front() == '/' || parameters.tf_prefix.back() == '/')) {
     reader.fault("tf_prefix", parameters.tf_prefix, "must not begin or end with /");

@@ -26,6 +26,8 @@ struct NodeParameters {
   bool autostart = true;                  ///< ~autostart: false waits for ~start
   bool exit_when_done = false;            ///< ~exit_when_done: the node ends after the result ...
   double linger = 1.0;                    ///< ~linger: ... this much later [s of wall time], >= 0
+  double feedback_rate = 10.0;            ///< ~feedback_rate: of ~align [1/s of wall time], 0.01 to 1000
+  bool publish_clock = false;             ///< ~publish_clock: simulated time is ROS time
   std::string tf_prefix;                  ///< ~tf_prefix: "left" makes left/slot, left/part ...
   std::array<double, 3> slot_position{};  ///< ~slot_position: of the slot in the world [m]
   std::vector<std::string> wait_for_subscribers;  ///< ~wait_for_subscribers: topics, as in "state result"

@@ -1,26 +1,20 @@
 #include "node/trial_run.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vibratory_alignment {
 
 TrialRun::TrialRun(const Scene& scene, double interval) : scene_(scene), interval_(interval) { restart(); }
 
-void TrialRun::restart() { begin(Simulation(scene_)); }
-
-void TrialRun::change_scene(const Scene& scene, double interval) {
-  Simulation simulation(scene);
-  scene_ = scene;
-  interval_ = interval;
-  begin(std::move(simulation));
-}
-
-void TrialRun::begin(Simulation simulation) {
+void TrialRun::restart() {
+  Simulation simulation(scene_);
   sampler_.reset();
   simulation_.emplace(std::move(simulation));
   sampler_.emplace(*simulation_, interval_);
+  last_ = {};
+  peak_force_ = {};
   sample_count_ = 0;
-  time_ = 0.0;
   ended_ = excitations_changed_ = pressing_force_changed_ = false;
 }
 
@@ -52,9 +46,26 @@ bool TrialRun::next(Sample& sample) {
     return false;
   }
   ++sample_count_;
-  time_ = sample.time;
+  last_ = sample;
+  for (int i = 0; i < kSiteCount; ++i) {
+    double& peak = peak_force_[static_cast<std::size_t>(spot_of(static_cast<Site>(i)))];
+    peak = std::max(peak, sample.contacts[static_cast<std::size_t>(i)].peak_normal_force);
+  }
   ended_ = sample.is_last;
   return true;
+}
+
+TrialResult TrialRun::result() const {
+  TrialResult result = simulation_->result();
+  if (ended_) return result;
+  result.final_time = last_.time;
+  result.final_state = last_.state;
+  result.mode = last_.mode;
+  result.impacts = last_.impacts;
+  result.peak_force = peak_force_;
+  const double largest = *std::max_element(peak_force_.begin(), peak_force_.end());
+  result.force_limit_exceeded = scene_.trial.force_limit && largest > *scene_.trial.force_limit;
+  return result;
 }
 
 double TrialRun::next_time() const { return static_cast<double>(sample_count_) * interval_; }

@@ -2,6 +2,7 @@
 // between two samples, and which can start again.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,7 @@ class TrialRun {
   double next_time() const;
 
   /// Instant of the last sample.
-  double time() const { return time_; }
+  double time() const { return last_.time; }
 
   bool ended() const { return ended_; }
 
@@ -37,22 +38,19 @@ class TrialRun {
   /// Simulation does; then the trial goes on as it was.
   void restart();
 
-  /// Puts another scene in the place of this one, at its start. Throws as Simulation does; then nothing changes.
-  void change_scene(const Scene& scene, double interval);
-
-  /// Of the trial so far.
-  TrialResult result() const { return simulation_->result(); }
+  /// Of the trial up to the last sample; the sums of the solver's steps and of the energy are up to a step further.
+  TrialResult result() const;
 
  private:
-  void begin(Simulation simulation);
   void apply_changes();
 
   Scene scene_;  ///< with all changes
   double interval_;
   std::optional<Simulation> simulation_;
   std::optional<Sampler> sampler_;
+  Sample last_;                                  ///< that next() gave
+  std::array<double, kSpotCount> peak_force_{};  ///< of all samples
   long sample_count_ = 0;
-  double time_ = 0.0;
   bool ended_ = false;
   bool excitations_changed_ = false, pressing_force_changed_ = false;
 };

@@ -130,7 +130,7 @@ void AlignerLink::drop_hanging_call() {
 void AlignerLink::on_state(const AlignerState& state) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (status_.result && state.header.stamp > status_.result->header.stamp) status_.result.reset();
-  if (status_.state && (state.tau < status_.state->tau || state.scene != status_.state->scene)) {
+  if (status_.state && state.tau <= status_.state->tau) {
     samples_.clear();
     last_arrival_ = {};
   }

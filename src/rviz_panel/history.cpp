@@ -20,7 +20,7 @@ void History::clear() {
 }
 
 void History::add(const HistoryPoint& point) {
-  if (!points_.empty() && point.time < points_.back().time) clear();
+  if (!points_.empty() && point.time <= points_.back().time) clear();
   if (!points_.empty() && in_last_ < stride_) {
     points_.back() = merged(points_.back(), point);
     ++in_last_;

@@ -17,7 +17,7 @@ class History {
   /// `capacity` >= 2, even.
   explicit History(std::size_t capacity = 2000) : capacity_(capacity) {}
 
-  /// A time before that of the last point begins a new run.
+  /// A time that is not after that of the last point begins a new run.
   void add(const HistoryPoint& point);
 
   void clear();

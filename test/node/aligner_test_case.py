@@ -11,10 +11,12 @@ import unittest
 import rospy
 from geometry_msgs.msg import WrenchStamped
 from roslib.packages import find_node
+from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from vibratory_alignment.msg import AlignerContacts, AlignerResult, AlignerState
+from vibratory_alignment.srv import StepBy
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'scenes')
 
@@ -70,7 +72,7 @@ class AlignerTestCase(unittest.TestCase):
     def listen(self, topic, kind=None):
         """Listens to a topic of the node, from when the node has connected."""
         kinds = {'state': AlignerState, 'contacts': AlignerContacts, 'result': AlignerResult,
-                 'markers': MarkerArray, 'reaction/a1': WrenchStamped, 'reaction/a2': WrenchStamped}
+                 'markers': MarkerArray, 'restarts': UInt32, 'reaction/a1': WrenchStamped, 'reaction/a2': WrenchStamped}
         listener = Listener(topic if kind else self.node + '/' + topic, kind or kinds[topic])
         deadline = time.time() + 15.0
         while listener.subscriber.get_num_connections() == 0:
@@ -81,6 +83,10 @@ class AlignerTestCase(unittest.TestCase):
     def call(self, service):
         rospy.wait_for_service(self.node + '/' + service, 15.0)
         return rospy.ServiceProxy(self.node + '/' + service, Trigger)()
+
+    def step_by(self, samples=0, duration=0.0):
+        rospy.wait_for_service(self.node + '/step_by', 15.0)
+        return rospy.ServiceProxy(self.node + '/step_by', StepBy)(samples, duration)
 
     def reset(self, *listeners):
         """Goes back to the start; each listener then holds the one message of it."""

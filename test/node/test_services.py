@@ -51,6 +51,41 @@ class Services(AlignerTestCase):
         time.sleep(0.3)
         self.assertEqual(len(self.states.messages), count)
 
+    def test_step_by_samples_and_by_duration(self):
+        for request, count in ((dict(samples=3), 3), (dict(duration=0.0251), 3), (dict(duration=0.005001), 1),
+                               (dict(samples=200), 200)):
+            before = len(self.states.messages)
+            response = self.step_by(**request)
+            self.assertTrue(response.success, response.message)
+            self.assertEqual(response.samples, count)
+            self.assertTrue(self.states.wait_for(before + count, 2.0), 'published before the answer')
+        time.sleep(0.3)
+        self.assertEqual([state.tau for state in self.states.messages], [n * INTERVAL for n in range(1, 208)])
+
+    def test_step_by_ends_with_the_trial(self):
+        response = self.step_by(samples=1000)
+        self.assertEqual((response.success, response.samples), (True, 300))
+        self.assertFalse(self.step_by(samples=1).success)
+        self.assertTrue(self.states.wait_for(300))
+        self.assertEqual(self.states.messages[-1].tau, 3.0)
+
+    def test_step_by_refuses_what_it_cannot_do(self):
+        for request in (dict(), dict(samples=1001), dict(duration=-1.0), dict(duration=0.004), dict(duration=1e3),
+                        dict(duration=float('nan')), dict(duration=float('inf'))):
+            response = self.step_by(**request)
+            self.assertEqual((response.success, response.samples), (False, 0), request)
+            self.assertIn('1 to 1000', response.message)
+        self.assertIn('give one', self.step_by(samples=1, duration=1.0).message)
+        time.sleep(0.2)
+        self.assertEqual(self.states.messages, [])
+
+    def test_reset_and_start_are_announced(self):
+        restarts = self.listen('restarts')
+        self.assertTrue(restarts.wait_for(1), 'it is latched')
+        count = restarts.messages[-1].data
+        self.call('reset')
+        self.assertTrue(restarts.wait(lambda messages: messages[-1].data == count + 1))
+
     def test_reset_repeats_the_trial(self):
         self.run_to_end(self.states)
         first = [state for state in self.states.messages]

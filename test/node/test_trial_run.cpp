@@ -111,6 +111,24 @@ TEST(TrialRun, PressingForceMovesTheAnchor) {
   EXPECT_LT(b.state.y, a.state.y);
 }
 
+TEST(TrialRun, ResultSoFarIsThatOfATrialWhichEndsThere) {
+  TrialRun run(small_scene::load(), kInterval);
+  skip(run, 151);
+  const TrialResult so_far = run.result();
+  EXPECT_EQ(so_far.outcome, Outcome::running);
+  // a step may begin elsewhere: equal up to the solver's tolerance
+  TrialRun whole(small_scene::load(small_scene::path, {"trial.time_limit=1.5"}), kInterval);
+  all_samples(whole);
+  const TrialResult expected = whole.result();
+  EXPECT_EQ(expected.final_time, 1.5);
+  EXPECT_NEAR(so_far.final_time, 1.5, 1e-12);
+  EXPECT_NEAR(so_far.final_state.y, expected.final_state.y, 1e-6);
+  EXPECT_EQ(so_far.impacts, expected.impacts);
+  EXPECT_EQ(so_far.mode, expected.mode);
+  EXPECT_GT(expected.peak_force[0], 0.0);
+  for (std::size_t i = 0; i < kSpotCount; ++i) EXPECT_NEAR(so_far.peak_force[i], expected.peak_force[i], 1e-6);
+}
+
 TEST(TrialRun, RestartRepeatsTheTrialBitForBit) {
   TrialRun run(small_scene::load(), kInterval);
   const std::vector<Sample> first = all_samples(run);

@@ -37,13 +37,15 @@ TEST(HistoryTest, LongRunsKeepTheirPeaksTheirEndAndTheirOrder) {
   for (std::size_t i = 1; i < points.size(); ++i) EXPECT_LT(points[i - 1].time, points[i].time);
 }
 
-TEST(HistoryTest, TimeThatGoesBackBeginsANewRun) {
+TEST(HistoryTest, TimeThatDoesNotGoOnBeginsANewRun) {
   History history(4);
   for (int i = 0; i < 9; ++i) history.add({1.0 * i, 1.0, 1.0, 1.0});
   history.add({0.0, 2.0, 0.0, 0.0});
   history.add({1.0, 2.0, 0.0, 0.0});
   ASSERT_EQ(history.points().size(), 2U) << "and no point stands for several any more";
   EXPECT_EQ(history.points()[0].misalignment, 2.0);
+  for (int i = 0; i < 2; ++i) history.add({0.0, 3.0, 0.0, 0.0});  // twice set back to the start
+  EXPECT_EQ(history.points().size(), 1U);
 }
 
 }  // namespace

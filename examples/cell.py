@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""A small assembly cell: aligns several parts, one after the other, each with settings of its own, and reports.
+
+A client of the action ~align of aligner_node, as a sequencer of one's own would be. Parameters:
+  ~aligner  name of the aligner (default: aligner)
+  ~parts    list of maps: `part`, the name for the report, and any fields of the action's goal (action/Align.action)
+  ~patience wall time for one part [s] (default: 120)
+Topic ~report (std_msgs/String, latched): a list of results as YAML, when the last part is done.
+Exit status: 0 every part is in its slot, 1 some are not or the aligner does not answer.
+"""
+import sys
+import time
+
+import actionlib
+import rospy
+import yaml
+from actionlib_msgs.msg import GoalStatus
+from std_msgs.msg import String
+
+from vibratory_alignment.msg import AlignAction, AlignGoal
+
+STATES = {value: name.lower() for name, value in vars(GoalStatus).items() if name.isupper()}
+
+
+def goal_of(part):
+    """The goal with the fields that a part gives. Raises AttributeError, ValueError for a field that is none."""
+    fields = {key: value for key, value in part.items() if key != 'part'}
+    for key, value in fields.items():
+        if isinstance(value, str) and key != 'scene':  # PyYAML takes 1e-3 for text
+            fields[key] = float(value)
+    return AlignGoal(**fields)
+
+
+def wait(condition, seconds):
+    """Waits in wall time, which passes also while simulated time stands still."""
+    end = time.time() + seconds
+    while not condition() and time.time() < end and not rospy.is_shutdown():
+        time.sleep(0.02)
+    return condition()
+
+
+def align(client, part, patience):
+    """Has one part aligned; what became of it, for the report."""
+    name = part.get('part', part.get('scene', 'part'))
+    reported = [0]
+
+    def on_feedback(feedback):
+        tenths = int(10.0 * feedback.progress)
+        if tenths > reported[0]:
+            reported[0] = tenths
+            rospy.loginfo('%s: %3.0f %%, %.3g mm from the axis of the slot', name, 100.0 * feedback.progress,
+                          1e3 * feedback.misalignment)
+
+    client.send_goal(goal_of(part), feedback_cb=on_feedback)
+    if not wait(lambda: client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE), patience):
+        rospy.logwarn('%s: takes too long: cancelled', name)
+        client.cancel_goal()
+    wait(lambda: client.get_result() is not None, 5.0)
+    report = {'part': name, 'state': STATES[client.get_state()], 'text': client.get_goal_status_text()}
+    result = client.get_result()
+    if result is not None and result.outcome:
+        report.update(outcome=result.outcome, duration_ms=1e3 * result.duration, peak_force=max(result.peak_force),
+                      impacts=sum(result.impacts), force_limit_exceeded=result.force_limit_exceeded,
+                      energy_residual=result.energy_residual)
+    return report
+
+
+def main():
+    rospy.init_node('cell')
+    server = rospy.resolve_name(rospy.get_param('~aligner', 'aligner')) + '/align'
+    parts = rospy.get_param('~parts')
+    client = actionlib.SimpleActionClient(server, AlignAction)
+    publisher = rospy.Publisher('~report', String, queue_size=1, latch=True)
+    if not wait(lambda: client.action_client.wait_for_server(rospy.Duration(0.001)), 30.0):
+        rospy.logfatal('%s does not answer', server)
+        return 1
+    reports = [align(client, part, rospy.get_param('~patience', 120.0)) for part in parts]
+    for report in reports:
+        if 'outcome' in report:
+            rospy.loginfo('%(part)s: %(outcome)s after %(duration_ms).3g ms, %(impacts)d impacts, peak %(peak_force).3g N',
+                          report)
+        else:
+            rospy.logerr('%(part)s: %(state)s: %(text)s', report)
+    publisher.publish(yaml.safe_dump(reports))
+    wait(lambda: False, 1.0)  # for those who want the report
+    return 0 if all(report['state'] == 'succeeded' for report in reports) else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,121 @@
+#include "model/package_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+namespace vibratory_alignment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kPackage[] = "vibratory_alignment";
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !is_folder(path);
+}
+
+/// True for the source directory of this package.
+bool is_package(const fs::path& directory) {
+  return is_file(directory / "package.xml") &&
+         read_text(directory / "package.xml").find(std::string("<name>") + kPackage + "</name>") != std::string::npos;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> items;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, separator);) {
+    if (!item.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+/// Places where config/ may be, best first: around the executable (install prefix, source tree, devel space),
+/// then along ROS_PACKAGE_PATH. A devel space lists its source directories in ".catkin".
+std::vector<fs::path> package_directories() {
+  std::vector<fs::path> found;
+  std::vector<fs::path> roots;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  for (fs::path directory = executable.parent_path(); directory.has_relative_path();
+       directory = directory.parent_path()) {
+    found.push_back(directory / "share" / kPackage);
+    roots.push_back(directory);
+    for (const std::string& source : split(read_text(directory / ".catkin"), ';')) roots.emplace_back(source);
+  }
+  const char* const package_path = std::getenv("ROS_PACKAGE_PATH");
+  for (const std::string& item : split(package_path == nullptr ? "" : package_path, ':')) {
+    roots.emplace_back(item);
+    found.push_back(fs::path(item) / kPackage);
+  }
+  for (const fs::path& root : roots) {
+    for (const fs::path& directory : {root, root / kPackage}) {
+      if (is_package(directory)) found.push_back(directory);
+    }
+  }
+  return found;
+}
+
+/// The first such folder there is; empty when there is none.
+fs::path directory_of(const PackageFileKind& kind) {
+  for (const fs::path& directory : package_directories()) {
+    if (is_folder(directory / "config" / kind.folder)) return directory / "config" / kind.folder;
+  }
+  return {};
+}
+
+/// Sorted.
+std::vector<std::string> shipped(const PackageFileKind& kind) {
+  std::vector<std::string> names;
+  const fs::path directory = directory_of(kind);
+  if (directory.empty()) return names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory, error)) {
+    if (entry.path().extension() != ".yaml") continue;
+    names.push_back(entry.path().lexically_relative(directory).replace_extension().generic_string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::string find_package_file(const PackageFileKind& kind, const std::string& name) {
+  if (name.empty()) throw NoSuchFile("the name is empty");
+  if (is_file(name)) return name;
+  const fs::path directory = directory_of(kind);
+  if (!directory.empty() && fs::path(name).is_relative()) {
+    for (const char* suffix : {"", ".yaml"}) {
+      const fs::path file = directory / (name + suffix);
+      if (is_file(file)) return file.string();
+    }
+  }
+  const std::string word = kind.singular;
+  if (is_folder(name)) throw NoSuchFile(name + ": is a directory; a " + word + " is a YAML file");
+  std::string message = name + ": no such file, and no " + word + " of that name comes with the package";
+  std::string separator = " (these do: ";
+  for (const std::string& candidate : shipped(kind)) {
+    message += separator + candidate;
+    separator = ", ";
+  }
+  if (separator == ", ") message += ")";
+  throw NoSuchFile(message);
+}
+
+}  // namespace vibratory_alignment

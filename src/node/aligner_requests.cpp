@@ -1,0 +1,186 @@
+// What services, settings and the action do to the trial.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "model/scaling.h"
+#include "node/align_goal.h"
+#include "node/aligner.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Samples of one step: as many as a subscriber's queue takes, so that none is lost, and the node soon answers again.
+constexpr long kLongestStep = kQueueSize;
+constexpr char kEnded[] = "the trial has ended; reset it first";
+constexpr char kNotStarted[] = "not started yet";
+
+}  // namespace
+
+bool Aligner::on_start(Trigger::Request&, Trigger::Response& response) {
+  response.success = activity_ != Activity::ended;
+  if (activity_ == Activity::waiting) {
+    parameters_.autostart = true;
+    response.message = "starts as soon as the subscribers are there";
+  } else if (activity_ == Activity::ended) {
+    response.message = kEnded;
+  } else {
+    if (activity_ == Activity::paused) run();
+    response.message = "running";
+  }
+  return true;
+}
+
+bool Aligner::on_pause(Trigger::Request&, Trigger::Response& response) {
+  response.success = activity_ != Activity::ended;
+  if (activity_ == Activity::waiting) parameters_.autostart = false;
+  if (activity_ == Activity::running) set_activity(Activity::paused);
+  response.message = response.success ? "paused at " + time_text() : "the trial has ended";
+  return true;
+}
+
+bool Aligner::on_step(Trigger::Request&, Trigger::Response& response) {
+  response.success = activity_ == Activity::running || activity_ == Activity::paused;
+  if (!response.success) {
+    response.message = activity_ == Activity::ended ? kEnded : kNotStarted;
+    return true;
+  }
+  step(1);
+  response.message = "at " + time_text();
+  return true;
+}
+
+/// Pauses, publishes up to so many samples, and returns how many.
+long Aligner::step(long samples) {
+  set_activity(Activity::paused);
+  long published = 0;
+  while (published < samples && activity_ == Activity::paused) {
+    if (published == samples - 1) next_picture_ = {};
+    if (!publish_next()) break;
+    ++published;
+  }
+  return published;
+}
+
+bool Aligner::on_step_by(StepBy::Request& request, StepBy::Response& response) {
+  const bool by_samples = request.samples != 0;
+  const double unit = output_units(stage_->scene).time;
+  const double samples = by_samples ? request.samples : std::round(request.duration / unit / stage_->interval);
+  std::ostringstream fault;
+  if (by_samples && request.duration != 0.0) {
+    fault << "samples: " << request.samples << " and duration: " << request.duration << ": give one, the other is 0";
+  } else if (!(samples >= 1.0 && samples <= kLongestStep)) {
+    fault << (by_samples ? "samples: " : "duration: ") << (by_samples ? request.samples : request.duration)
+          << ": must be 1 to " << kLongestStep << " samples; one lasts " << stage_->interval * unit;
+  } else if (activity_ == Activity::ended) {
+    fault << kEnded;
+  } else if (activity_ == Activity::waiting) {
+    fault << kNotStarted;
+  }
+  response.success = fault.str().empty();
+  if (response.success) response.samples = static_cast<std::uint32_t>(step(static_cast<long>(samples)));
+  response.message = response.success ? "at " + time_text() : fault.str();
+  return true;
+}
+
+bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
+  const TrialResult so_far = stage_->trial.result();
+  try {
+    stage_->trial.restart();
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.message = error.what();
+    return true;
+  }
+  if (align_server_.active()) {
+    align_server_.abort(stage_->messages, so_far, "the trial was reset");
+    parameters_.autostart = false;
+  }
+  announce_restart();
+  if (sim_clock_) sim_clock_->set_back();
+  if (activity_ != Activity::waiting) {
+    publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
+    show_start();
+  }
+  response.success = true;
+  response.message = "paused at the start";
+  return true;
+}
+
+void Aligner::show_start() {
+  set_activity(Activity::paused);
+  next_picture_ = {};
+  publish_next();
+}
+
+/// The service ~load_scene.
+std::string Aligner::change_scene(const Scene& scene) {
+  NodeParameters parameters = parameters_;
+  parameters.time_scale = stage_->settings.config().time_scale;
+  double interval = interval_of(scene);
+  if (scene.scales.has_value() != stage_->scene.scales.has_value()) {  // seconds mean nothing to one of the two
+    parameters.time_scale = usual_time_scale(scene);
+    interval = sample_interval(parameters, scene);
+  }
+  auto next = std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_, interval);
+  if (align_server_.active()) {
+    align_server_.abort(stage_->messages, stage_->trial.result(), "another scene was loaded");
+    parameters_.autostart = false;
+  }
+  change_stage(std::move(next), true);
+  settings_server_.updateConfig(stage_->settings.config());
+  if (activity_ != Activity::waiting) show_start();
+  return scene.name + ": paused at the start";
+}
+
+/// Puts a trial in the place of the present one.
+void Aligner::change_stage(std::unique_ptr<Stage> next, bool other_scene) {
+  if (other_scene) warn_without_scales(next->scene);
+  publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
+  stage_ = std::move(next);
+  announce_restart();
+  if (sim_clock_) sim_clock_->begin_trial();
+  if (other_scene) publish_static_transforms();
+}
+
+void Aligner::on_settings(AlignerConfig& requested) {
+  DriveSettings& settings = stage_->settings;
+  TrialRun& trial = stage_->trial;
+  const AlignerConfig before = settings.config();
+  for (const std::string& refusal : settings.change(requested)) ROS_WARN("Refused: %s", refusal.c_str());
+  const AlignerConfig& after = settings.config();
+  if (after.enabled != before.enabled || after.amplitude != before.amplitude || after.frequency != before.frequency ||
+      after.phase != before.phase || after.waveform != before.waveform) {
+    trial.set_excitations(settings.excitations());
+  }
+  if (after.pressing_force != before.pressing_force) trial.set_pressing_force(*settings.pressing_force());
+  if (after.time_scale != before.time_scale) {
+    const Clock::time_point now = Clock::now();
+    const double reached = std::clamp(pacer_.simulated(now), stage_->seconds(trial.time()), next_due());
+    pacer_.start(after.time_scale, now, reached);
+  }
+}
+
+/// Puts the trial of the goal on the stage; spin() starts it.
+void Aligner::on_goal(const AlignGoal& goal) {
+  const bool other_scene = !goal.scene.empty();
+  const GoalPlan plan = plan_goal(goal, stage_->scene, stage_->settings);
+  const double interval = other_scene ? interval_of(plan.scene) : stage_->interval;
+  auto next = std::make_unique<Stage>(plan.scene, plan.settings, plan.limits, frames_, interval);
+  change_stage(std::move(next), other_scene);  // from here on nothing can go wrong
+  if (other_scene || goal.set_excitation || goal.set_pressing_force) {
+    settings_server_.updateConfig(stage_->settings.config());
+  }
+  parameters_.autostart = true;
+  waiting_since_ = Clock::now();
+  set_activity(Activity::waiting);
+}
+
+void Aligner::on_cancel() {
+  parameters_.autostart = false;
+  if (activity_ == Activity::running) set_activity(Activity::paused);
+  align_server_.preempt(stage_->messages, stage_->trial.result(), "cancelled at " + time_text());
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,32 @@
+// Makes the node known to a master that was started anew: roscpp registers topics and services only once.
+//
+// The calls to the master may block, so a thread of its own makes them. It sees nothing of the trial.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace vibratory_alignment {
+
+class MasterWatch {
+ public:
+  /// `services`: all that this node advertises, by full name. Its topics are found.
+  explicit MasterWatch(std::vector<std::string> services);
+  ~MasterWatch();
+  MasterWatch(const MasterWatch&) = delete;
+  MasterWatch& operator=(const MasterWatch&) = delete;
+
+ private:
+  void watch();
+
+  std::vector<std::string> services_;
+  std::mutex mutex_;
+  std::condition_variable stopped_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""The example of a cell: what it reports is what the command line computes with the same settings."""
+import json
+
+import rostest
+import yaml
+from std_msgs.msg import String
+
+from aligner_test_case import AlignerTestCase, Listener, align, program
+
+SETTINGS = {  # of config/cell.yaml, as the command line takes them
+    'peg of the paper': ('fig2',),
+    'steel peg, pressed gently': ('gripper_si', 'excitation.force=6', 'gripper.pressing_force=3',
+                                  'trial.time_limit=0.5', 'trial.force_limit=50'),
+    'peg into the bottom of its hole': ('insertion', 'gripper.pressing_force=0.25'),
+}
+
+
+class Cell(AlignerTestCase):
+
+    def test_three_parts_in_sequence(self):
+        self.assertTrue(program('cell.py'))
+        reports = Listener('/cell/report', String)
+        self.assertTrue(reports.wait_for(1, 50.0), 'no report')
+        report = yaml.safe_load(reports.messages[0].data)
+        self.assertEqual([part['part'] for part in report], list(SETTINGS))
+        for part in report:
+            scene, *settings = SETTINGS[part['part']]
+            options = [word for setting in settings for word in ('--set', setting)]
+            expected = json.loads(align('trial', scene, '--json', *options))
+            self.assertIn(expected['outcome'], ('aligned', 'inserted'))
+            self.assertEqual((part['state'], part['outcome']), ('succeeded', expected['outcome']))
+            self.assertEqual(part['impacts'], sum(expected['impacts'].values()))
+            self.assertLess(part['energy_residual'], 1e-6)
+            time_unit, force_unit = (1.0, 1.0) if scene == 'gripper_si' else (5e-3, 8.0)
+            self.assertAlmostEqual(part['duration_ms'], 1e3 * expected['duration'] * time_unit, places=9)
+            self.assertAlmostEqual(part['peak_force'], max(expected['peak_force'].values()) * force_unit, places=9)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('vibratory_alignment', 'cell', Cell)
