@@ -25,6 +25,7 @@ namespace {
 
 constexpr int kRefresh = 50;  ///< [ms]
 constexpr int kProgressSteps = 1000;
+constexpr int kLongestAnswer = 160;  ///< characters; the rest is in the tool tip
 constexpr char kDefaultNode[] = "/aligner";
 constexpr char kGreen[] = "#1a7f37", kAmber[] = "#9a6700", kRed[] = "#b42318", kGrey[] = "#6b7280";
 
@@ -270,9 +271,11 @@ void AlignerPanel::show_presence(const AlignerLink::Status& status) {
   if (presence_->text() != words) presence_->setText(words);
   if (controls_->isEnabled() != present) controls_->setEnabled(present);
 
-  const QString answer =
-      present ? coloured(QString::fromStdString(status.answer), status.refused ? kRed : kGrey) : QString();
+  const QString whole = QString::fromStdString(status.answer);
+  const QString brief = whole.size() > kLongestAnswer ? whole.left(kLongestAnswer) + QString::fromUtf8(" \u2026") : whole;
+  const QString answer = present ? coloured(brief, status.refused ? kRed : kGrey) : QString();
   if (answer_->text() != answer) answer_->setText(answer);
+  if (answer_->toolTip() != whole) answer_->setToolTip(whole);
   answer_->setVisible(present && !status.answer.empty());
 }
 

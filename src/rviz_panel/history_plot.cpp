@@ -48,7 +48,7 @@ class Frame {
   void draw_axes(const QString& title, const Unit& unit, const Unit* time_unit) const {
     const QFontMetrics metrics = painter_.fontMetrics();
     painter_.fillRect(area_, Qt::white);
-    const int rows = std::max(2, static_cast<int>(area_.height()) / (2 * metrics.height()));
+    const int rows = std::max(2, static_cast<int>(area_.height() / (1.6 * metrics.height())));
     for (const double mark : ticks(0.0, top_ * unit.factor, rows)) {
       const double y = at(0.0, mark / unit.factor).y();
       painter_.setPen(kGrid);
@@ -148,7 +148,7 @@ void HistoryPlot::paintEvent(QPaintEvent*) {
 
   const double left = kMargin + metrics.horizontalAdvance("-0.000"), width = this->width() - left - 2 * kMargin;
   const double line = metrics.height() + 4.0;
-  const double height = 0.5 * (this->height() - 4.0 * line - kMargin);
+  const double height = 0.5 * (this->height() - 3.6 * line - kMargin);
   const Frame above(painter, {left, line, width, height}, end, misalignment);
   const Frame below(painter, {left, 2.0 * line + height + 2.0, width, height}, end, force);
 
