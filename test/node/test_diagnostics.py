@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """What the node says of its health."""
 import tempfile
-import time
 
 import actionlib
 import dynamic_reconfigure.client
@@ -22,10 +21,10 @@ class Diagnostics(AlignerTestCase):
         self.reports = self.listen('/diagnostics', DiagnosticArray)
         self.call('reset')
 
-    def next_report(self):
-        """The next whole period: a dictionary of values by name of the status, and the levels."""
+    def next_report(self, count=2):
+        """The next whole period, or a later one: a dictionary of values by name of the status, and the levels."""
         self.reports.forget(0)
-        self.assertTrue(self.reports.wait_for(2, 5.0), 'no diagnostics')
+        self.assertTrue(self.reports.wait_for(count, 6.0), 'no diagnostics')
         values, levels = {}, {}
         for status in self.reports.messages[-1].status:
             name = status.name.replace('aligner: ', '')
@@ -58,12 +57,9 @@ class Diagnostics(AlignerTestCase):
         self.assertEqual(values['trial']['message'], 'paused')
         self.settings.update_configuration({'time_scale': 0.002})  # 7.5 s
         self.call('start')
-        time.sleep(1.0)
-        self.reports.forget(0)
-        self.assertTrue(self.reports.wait_for(4, 6.0))
+        values, levels = self.next_report(4)
         interval = (self.reports.arrivals[3] - self.reports.arrivals[0]) / 3
         self.assertAlmostEqual(interval, 1.0, delta=0.1)
-        values, levels = self.next_report()
         self.assertEqual(set(levels.values()), {DiagnosticStatus.OK})
         pace = values['pace']
         self.assertAlmostEqual(float(pace['simulated per wall time']), 0.002, delta=2e-4)
@@ -74,10 +70,6 @@ class Diagnostics(AlignerTestCase):
         self.assertLess(float(values['solver']['energy residual']), 1e-6)
         self.assertEqual((values['trial']['scene'], values['trial']['message']), ('small', 'running'))
 
-    def test_last_outcome_is_told(self):
-        self.run_to_end()
-        self.assertEqual(self.next_report()[0]['trial']['last outcome'], 'time_limit')
-
     def test_trial_that_lags_behind_is_a_warning(self):
         # a million units of time, 1000 s a second: nobody can; the part is held where it is, and two excitations
         # whose frequencies have no common measure never settle
@@ -85,7 +77,6 @@ class Diagnostics(AlignerTestCase):
         client = self.align(scene=self.changed_scene(
             trial={'time_limit': 1e6}, gripper={'stiffness': {'x': 1000.0, 'phi': 60.0}},
             excitation=[{'amplitude': 1.0, 'frequency': 20.0}, {'amplitude': 1.0, 'frequency': 33.1}]))
-        time.sleep(1.0)
         values, levels = self.next_report()
         self.assertEqual(levels['pace'], DiagnosticStatus.WARN, values)
         self.assertIn('cannot keep up', values['pace']['message'])
@@ -98,14 +89,12 @@ class Diagnostics(AlignerTestCase):
 
     def test_trial_that_fails_is_an_error(self):
         self.align(scene=self.changed_scene(solver={'step_limit': 5}))
-        time.sleep(0.3)
         values, levels = self.next_report()
         self.assertEqual(levels['solver'], DiagnosticStatus.ERROR)
         self.assertIn('failed', values['solver']['message'])
         self.assertEqual(values['trial']['last outcome'], 'failed')
         self.assertEqual(values['solver']['trials failed'], '1')
         self.align(scene=scene_path('small'), time_limit=0.1)
-        time.sleep(0.3)
         self.assertEqual(self.next_report()[1]['solver'], DiagnosticStatus.OK, 'until the next trial')
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The master is killed while a trial runs. A master of its own: rostest needs its own one."""
+"""The master is killed while a trial runs, and returns. A master of its own: rostest needs its own one."""
 import os
 import signal
 import socket
@@ -7,6 +7,7 @@ import subprocess
 import time
 import unittest
 
+import rosgraph
 import rostest
 
 from aligner_test_case import scene_path
@@ -19,14 +20,31 @@ class LostMaster(unittest.TestCase):
             probe.bind(('', 0))
             port = probe.getsockname()[1]
         self.environment = dict(os.environ, ROS_MASTER_URI='http://localhost:%d' % port)
-        self.master = self.spawn('rosmaster', '--core', '-p', str(port))
+        self.port = port
+        self.start_master()
+
+    def start_master(self):
+        self.master = self.spawn('rosmaster', '--core', '-p', str(self.port))
+        self.wait_until(lambda: socket.socket().connect_ex(('localhost', self.port)) == 0, 'no master')
+
+    def wait_until(self, condition, message):
         deadline = time.time() + 15.0
-        while socket.socket().connect_ex(('localhost', port)) != 0:
-            self.assertLess(time.time(), deadline, 'no master')
+        while not condition():
+            self.assertLess(time.time(), deadline, message)
             time.sleep(0.1)
 
-    def spawn(self, *command):
-        process = subprocess.Popen(command, env=self.environment)
+    def registered(self):
+        """Topics and services that the master knows of the node."""
+        master = rosgraph.Master('/test_lost_master', master_uri=self.environment['ROS_MASTER_URI'])
+        return {name for entries in master.getSystemState() for name, nodes in entries if '/aligner' in nodes}
+
+    def ask(self, *command):
+        """Output of a tool of ROS; empty if it fails."""
+        return subprocess.run(command, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              universal_newlines=True).stdout
+
+    def spawn(self, *command, **options):
+        process = subprocess.Popen(command, env=self.environment, **options)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
@@ -42,6 +60,25 @@ class LostMaster(unittest.TestCase):
         self.assertIsNone(node.poll())
         self.master.kill()
         self.assertEqual(node.wait(10.0), 0)
+
+    def test_new_master_knows_all_of_the_node(self):
+        node = self.start_node('_time_scale:=0.0005', '_autostart:=false')
+        self.wait_until(lambda: {'/aligner/set_parameters', '/aligner/align/goal', '/diagnostics'} <= self.registered(),
+                        'not registered')
+        before = self.registered()
+        self.master.kill()
+        self.master.wait()
+        time.sleep(1.5)
+        self.start_master()
+        self.wait_until(lambda: self.registered() >= before, 'not all is registered again')
+        self.assertIn('success: True', self.ask('rosservice', 'call', '/aligner/step'))
+        # topics work in both directions
+        echo = self.spawn('rostopic', 'echo', '-n', '1', '/aligner/align/result', stdout=subprocess.PIPE)
+        time.sleep(1.5)
+        self.spawn('rostopic', 'pub', '-1', '/aligner/align/goal', 'vibratory_alignment/AlignActionGoal',
+                   '{goal: {time_limit: -1.0}}')
+        self.assertIn('time_limit: -1: must be', echo.communicate(timeout=10.0)[0].decode())
+        self.assertIsNone(node.poll())
 
     def test_interrupt_ends_it_at_once(self):
         node = self.start_node('_time_scale:=0.0005')

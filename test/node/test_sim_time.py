@@ -47,7 +47,8 @@ class SimTime(AlignerTestCase):
         self.states = self.listen('state')
         self.reset(self.states)
 
-        for instant in (100.0, 100.0, 5000.0, 20.0, 20.0, 19.9, 0.5):  # stands, jumps far ahead, far back, a little back
+        # the clock stands, jumps far ahead, far back, a little back
+        for instant in (100.0, 100.0, 5000.0, 20.0, 20.0, 19.9, 0.5):
             self.tell(instant)
             stamps = self.step()
             self.assert_rising(stamps)

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""What may happen to a node among others. roslaunch starts it again whenever it ends."""
+import os
+import signal
+import subprocess
+import time
+from xmlrpc.client import ServerProxy
+
+import actionlib
+import rosgraph
+import rospy
+import rostest
+import tf2_ros
+from actionlib_msgs.msg import GoalStatus
+
+from aligner_test_case import AlignerTestCase, program, scene_path
+from vibratory_alignment.msg import AlignAction, AlignGoal, AlignResult, AlignerState
+
+
+class Faults(AlignerTestCase):
+
+    def process_id(self):
+        """Of the aligner that runs now, None while none does."""
+        try:
+            return ServerProxy(rosgraph.Master('/test_faults').lookupNode('/aligner')).getPid('/test_faults')[2]
+        except (OSError, rosgraph.MasterException):
+            return None
+
+    def spawn(self, *command):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_killed_and_respawned(self):
+        buffer = tf2_ros.Buffer(rospy.Duration(60.0))
+        tf2_ros.TransformListener(buffer)
+        states = self.listen('state')
+        self.reset(states)
+        self.call('start')
+        self.assertTrue(states.wait_for(50))
+        old = self.process_id()
+        os.kill(old, signal.SIGKILL)
+        deadline = time.time() + 15.0
+        while self.process_id() in (old, None):
+            self.assertLess(time.time(), deadline, 'it does not come back')
+            time.sleep(0.1)
+        self.reset(states)  # the services are those of the new one
+        time.sleep(0.2)
+        found = buffer.lookup_transform('world', 'part', rospy.Time(0))
+        self.assertAlmostEqual(found.header.stamp.to_sec(), states.messages[-1].header.stamp.to_sec(), delta=1e-5,
+                               msg='not the pose of before')
+        self.assertTrue(buffer.can_transform('world', 'edge_a2', rospy.Time(0)))
+        self.assertEqual(self.run_to_end(states).tau, 3.0)
+        self.assertEqual(len(states.messages), 301)
+
+    def start_own(self, *arguments):
+        """An aligner that roslaunch knows nothing of."""
+        process = self.spawn(program('aligner_node'), '__name:=own', '_scene_file:=' + scene_path('small'),
+                             '_sample_interval:=0.001', '_time_scale:=0.01', '_autostart:=false', *arguments)
+        self.node = '/own'
+        rospy.wait_for_service('/own/step', 15.0)
+        return process
+
+    def assert_ends_at_once(self, process, number):
+        start = time.time()
+        process.send_signal(number)
+        self.assertEqual(process.wait(5.0), 0)
+        self.assertLess(time.time() - start, 1.0)
+
+    def test_subscriber_that_never_reads(self):
+        process = self.start_own()
+        stuck = self.spawn('rostopic', 'echo', '/own/state')
+        states = self.listen('/own/state', AlignerState)
+        time.sleep(1.5)
+        self.reset(states)
+        os.kill(stuck.pid, signal.SIGSTOP)
+        for _ in range(2):  # more messages of half a kB than a queue or the connection holds
+            result = self.run_to_end(states)
+            self.assertEqual(result.tau, 3.0)
+            self.assertEqual(len(states.messages), 3001, 'who reads gets all of them')
+        self.assert_ends_at_once(process, signal.SIGINT)
+
+    def test_stopped_in_the_middle_of_a_goal(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.start_own()
+            states = self.listen('/own/state', AlignerState)
+            client = actionlib.SimpleActionClient('/own/align', AlignAction)
+            self.assertTrue(client.wait_for_server(rospy.Duration(15.0)))
+            client.send_goal(AlignGoal())
+            self.assertTrue(states.wait_for(300))
+            self.assert_ends_at_once(process, number)
+            deadline = time.time() + 2.0
+            while client.get_result() is None and time.time() < deadline:
+                time.sleep(0.01)
+            self.assertEqual(client.get_state(), GoalStatus.ABORTED)
+            self.assertEqual(client.get_goal_status_text(), 'the node ends')
+            self.assertNotEqual(client.get_result(), AlignResult())
+            self.assertTrue(states.wait(lambda messages: messages[-1].tau == client.get_result().tau, 2.0),
+                            'the last sample is lost')
+
+
+if __name__ == '__main__':
+    rostest.rosrun('vibratory_alignment', 'faults', Faults)
