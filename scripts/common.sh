@@ -32,8 +32,13 @@ run_packages=(
   python3-std-msgs python3-std-srvs python3-geometry-msgs python3-tf2-msgs python3-visualization-msgs
   python3-actionlib python3-actionlib-msgs
 )
-test_packages=(librostest-dev python3-rostest python3-diagnostic-msgs libgtest-dev libgmock-dev)
-rviz_packages=(rviz)
+rviz_packages=(rviz librviz-dev)
+# with a virtual screen, and OpenGL without a graphics card
+test_packages=(
+  librostest-dev python3-rostest python3-diagnostic-msgs libgtest-dev libgmock-dev
+  "${rviz_packages[@]}" xvfb xauth libgl1-mesa-dri
+  ros-robot-state-publisher liburdfdom-tools
+)
 
 say() { printf '\n==> %s\n' "$*"; }
 note() { printf '    %s\n' "$*"; }

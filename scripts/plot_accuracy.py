@@ -3,12 +3,11 @@
 
 import argparse
 import csv
+import os
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from drawing import plt  # noqa: E402
 
 # Marks as well as colours tell the lines apart, also in grey and for those who see colours otherwise (Okabe and Ito).
 STYLES = {

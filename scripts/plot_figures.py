@@ -10,18 +10,16 @@ import argparse
 import collections
 import csv
 import json
+import os
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from drawing import draw_motion, plt, set_style, tidy  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
 
 # Marks as well as colours tell the curves apart, also in grey and for those who see colours otherwise (Okabe and Ito).
 STYLES = (("#0072B2", "o"), ("#D55E00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#E69F00", "v"), ("#56B4E9", "X"))
-BLUE, ORANGE = "#0072B2", "#D55E00"
 
 # The paper's symbols.
 SYMBOLS = {
@@ -33,16 +31,6 @@ SYMBOLS = {
     "excitation.amplitude": r"$A$",
     "initial.x": r"$x_C|_{\tau=0}$",
     "slot.clearance": r"$\delta$",
-}
-PANELS = {
-    "x": r"$x_C$",
-    "y": r"$y_C$",
-    "vx": r"$\dot x_C$",
-    "vy": r"$\dot y_C$",
-    "phi": r"$\varphi$",
-    "omega": r"$\dot\varphi$",
-    "n1": r"$n_1$",
-    "n2": r"$n_2$",
 }
 
 
@@ -56,35 +44,8 @@ def read_rows(path):
         return [{key: float(text or "nan") for key, text in row.items()} for row in csv.DictReader(file)]
 
 
-def tidy(axes):
-    axes.grid(True, color="0.9", linewidth=0.6)
-    axes.set_axisbelow(True)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-
-
-def draw_motion(figure, rows):
-    """The panels a, b, ... of a trial; the last one spans the sheet, the forces."""
-    panels = figure["panels"]
-    lines = (len(panels) + 1) // 2
-    sheet = plt.figure(figsize=(7.2, 1.75 * lines + 0.4), layout="constrained")
-    grid = sheet.add_gridspec(lines, 2)
-    time = [row["t"] for row in rows]
-    for number, columns in enumerate(panels):
-        wide = number == len(panels) - 1 and len(panels) % 2 == 1
-        axes = sheet.add_subplot(grid[number // 2, :] if wide else grid[number // 2, number % 2])
-        for column, colour in zip(columns, (BLUE, ORANGE)):
-            axes.plot(time, [row[column] for row in rows], color=colour, linewidth=0.9, label=PANELS[column])
-        axes.set_ylabel(", ".join(PANELS[column] for column in columns))
-        axes.set_title("%s)" % "abcdefg"[number], loc="left", fontsize=9)
-        axes.set_xlim(0.0, time[-1])
-        if columns[0].startswith("n"):
-            axes.set_ylim(bottom=0.0)
-        if len(columns) > 1:
-            axes.legend(frameon=False, ncol=2, fontsize=8, loc="upper right")
-        axes.set_xlabel(r"$\tau$", labelpad=1)
-        tidy(axes)
-    return sheet
+def draw_trial(figure, rows):
+    return draw_motion(figure["panels"], {column: [row[column] for row in rows] for column in rows[0]})
 
 
 def draw_curves(figure, rows):
@@ -163,7 +124,7 @@ def outline(axes, xs, ys, unreliable):
                 axes.plot(right[i:i + 2], [up[j]] * 2, color="black", linewidth=1.2)
 
 
-DRAW = {"motion": draw_motion, "curves": draw_curves, "region": draw_region}
+DRAW = {"motion": draw_trial, "curves": draw_curves, "region": draw_region}
 
 
 def main():
@@ -171,7 +132,7 @@ def main():
                                      usage=argparse.SUPPRESS)
     parser.add_argument("folder", type=pathlib.Path)
     folder = parser.parse_args().folder
-    plt.rcParams.update({"font.size": 10, "mathtext.fontset": "cm", "svg.hashsalt": "figures", "hatch.linewidth": 0.6})
+    set_style()
     try:
         for figure in json.loads((folder / "figures.json").read_text()):
             sheet = DRAW[figure["kind"]](figure, read_rows(folder / (figure["name"] + ".csv")))

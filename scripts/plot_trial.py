@@ -1,64 +1,99 @@
 #!/usr/bin/env python3
-"""Draws a trial: position, tilt and the forces at the slot's edges over time, as a PNG, PDF or SVG file.
+"""Draws a trial as the paper draws its Fig. 2: position, velocities, tilt and the reactions at the slot's edges over time.
 
-usage: plot_trial.py TRIAL PICTURE [--title TEXT]
+usage: plot_trial.py TRIAL PICTURE [--format FORMAT] [--node NAME] [--si] [--title TEXT]
 
-TRIAL is a CSV file of `align trial --csv`, or a bag: one that `align trial --bag` wrote, or a recording of
-aligner_node. A CSV file is drawn in its own units, a bag in dimensionless numbers. In a bag's picture each force is
-the largest one since the message before.
+`align plot` calls it and describes the options. Exit status: 0 drawn, 1 it failed while drawing, 2 TRIAL cannot be drawn.
 """
 
 import argparse
 import csv
+import os
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-BLUE, ORANGE, GREY = "#1f5fa8", "#d9730d", "#666666"
-STATE_SUFFIX = "/state"
-RESULT_SUFFIX = "/result"
+COLUMNS = ("t", "x", "y", "phi", "vx", "vy", "n1", "n2")
+STATE_TYPE = "vibratory_alignment/AlignerState"
+SHOWN_SI = {"t": (1e3, "ms"), "x": (1e3, "mm"), "y": (1e3, "mm"), "vx": (1e3, "mm/s"), "vy": (1e3, "mm/s"),
+            "phi": (1e3, "mrad"), "n1": (1.0, "N"), "n2": (1.0, "N")}
 
 
-class Trial:
-    """Columns over time, and a line that says what came out of it."""
-
-    def __init__(self):
-        self.t, self.x, self.y, self.phi, self.n1, self.n2 = [], [], [], [], [], []
-        self.forces_are_peaks = False
-        self.title = ""
+class BadTrial(Exception):
+    """TRIAL cannot be drawn; the words say why."""
 
 
 def read_csv(path):
-    """Reads what `align trial --csv` writes. Raises KeyError or ValueError for other files."""
-    trial = Trial()
+    """Columns of what `align trial --csv` writes, and no words about the outcome."""
+    motion = {column: [] for column in COLUMNS}
     with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            for key in ("t", "x", "y", "phi", "n1", "n2"):
-                getattr(trial, key).append(float(row[key]))
-    return trial
+        rows = csv.DictReader(file)
+        present = rows.fieldnames or []
+        for column in COLUMNS:
+            if column not in present:
+                raise BadTrial("has no column %s; there must be %s" % (column, ", ".join(COLUMNS)))
+        for row in rows:
+            for column in COLUMNS:
+                motion[column].append(number(row[column], "line %d: %s" % (rows.line_num, column)))
+    return motion, ""
 
 
-def read_bag(path):
-    """Reads the topics state and result of the first aligner in the bag."""
-    import rosbag
+def number(text, place):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        raise BadTrial("%s: %s: must be a number" % (place, "nothing is there" if text is None else text))
 
-    trial = Trial()
-    trial.forces_are_peaks = True
-    with rosbag.Bag(path) as bag:
-        for topic, message, _ in bag.read_messages():
-            if topic.endswith(STATE_SUFFIX):
-                state = message.dimensionless
-                values = (message.tau, state.x, state.y, state.phi) + tuple(
-                    force / message.force_scale for force in message.peak_force[:2]
-                )
-                for key, value in zip(("t", "x", "y", "phi", "n1", "n2"), values):
-                    getattr(trial, key).append(value)
-            elif topic.endswith(RESULT_SUFFIX):
-                trial.title = "%s: %s" % (message.scene, outcome_text(message))
-    return trial
+
+def read_bag(path, node, si):
+    """Columns of the last run in a bag, dimensionless or in SI, and words about its outcome."""
+    try:
+        import rosbag
+    except ImportError as error:
+        sys.exit("a bag needs rosbag (apt-get install python3-rosbag), which %s does not find: %s"
+                 % (sys.executable, error))
+    try:
+        with rosbag.Bag(path) as bag:
+            return read_last_run(bag, find_node(bag, node), si)
+    except rosbag.bag.ROSBagUnindexedException:
+        raise BadTrial("the bag was not closed: `rosbag reindex %s` makes it readable" % path)
+    except rosbag.ROSBagException as error:
+        raise BadTrial("is not a whole bag: %s" % error)
+
+
+def find_node(bag, wanted):
+    """Name of the aligner whose trial is drawn."""
+    topics = bag.get_type_and_topic_info().topics
+    nodes = sorted(topic[: -len("/state")] for topic, info in topics.items()
+                   if info.msg_type == STATE_TYPE and topic.endswith("/state"))
+    if not nodes:
+        raise BadTrial("has no topic state of an aligner (%s); its topics: %s"
+                       % (STATE_TYPE, ", ".join(sorted(topics)) or "none"))
+    if wanted:
+        name = "/" + wanted.strip("/")
+        if name not in nodes:
+            raise BadTrial("--node %s: has no topic %s/state; its aligners: %s" % (wanted, name, ", ".join(nodes)))
+        return name
+    if len(nodes) > 1:
+        raise BadTrial("has several aligners; choose one with --node: %s" % ", ".join(nodes))
+    return nodes[0]
+
+
+def read_last_run(bag, node, si):
+    motion, outcome = {column: [] for column in COLUMNS}, ""
+    for topic, message, _ in bag.read_messages(topics=[node + "/state", node + "/result"]):
+        if topic.endswith("/result"):
+            outcome = "%s: %s" % (message.scene, outcome_text(message))
+            continue
+        if si and not message.has_scales:
+            raise BadTrial("--si: the scene %s has no scales, so its numbers have no SI units" % message.scene)
+        time = message.time if si else message.tau
+        if motion["t"] and time < motion["t"][-1]:  # ~reset: another run begins
+            motion, outcome = {column: [] for column in COLUMNS}, ""
+        state = message.si if si else message.dimensionless
+        forces = [force if si else force / message.force_scale for force in message.peak_force[:2]]
+        values = (time, state.x, state.y, state.phi, state.vx, state.vy, *forces)
+        for column, value in zip(COLUMNS, values):
+            motion[column].append(value)
+    return motion, outcome
 
 
 def outcome_text(result):
@@ -70,33 +105,21 @@ def outcome_text(result):
     return text + (" (%.4g ms)" % (1e3 * result.duration) if result.has_scales else "")
 
 
-def draw(trial, path):
-    """Writes the picture; the suffix of the path decides on its format."""
-    plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = plt.subplots(
-        4, 1, sharex=True, figsize=(9, 8), gridspec_kw={"height_ratios": [1, 1, 1, 1.2]}, constrained_layout=True
-    )
-    figure.suptitle(trial.title, fontsize=13)
-    for axis, values, label in zip(axes, (trial.x, trial.y, trial.phi), ("x", "y", r"tilt $\varphi$ [rad]")):
-        axis.plot(trial.t, values, color=BLUE, linewidth=1.2)
-        axis.set_ylabel(label)
-    axes[0].axhline(0.0, color=GREY, linewidth=0.8, linestyle="--")
-    axes[0].annotate("axis of the slot", (0.995, 0.0), xycoords=("axes fraction", "data"), xytext=(0, 3),
-                     textcoords="offset points", color=GREY, ha="right", fontsize=8)
-    forces = axes[3]
-    curves = ((trial.n1, BLUE, "$n_1$, edge a1 (right)"), (trial.n2, ORANGE, "$n_2$, edge a2 (left)"))
-    for values, color, label in curves:
-        forces.fill_between(trial.t, values, color=color, alpha=0.25, linewidth=0)
-        forces.plot(trial.t, values, color=color, linewidth=0.9, label=label)
-    forces.set_ylim(bottom=0.0)
-    forces.set_ylabel("normal force" + (",\nlargest since last message" if trial.forces_are_peaks else ""))
-    forces.legend(frameon=False, ncol=2, loc="upper right")
-    forces.set_xlabel(r"time $\tau$" if trial.forces_are_peaks else "time t")
-    for axis in axes:
-        axis.grid(True, color="#dddddd", linewidth=0.6)
-        axis.margins(x=0.0)
-    figure.align_ylabels(axes)
-    figure.savefig(path, dpi=130)
+def draw(motion, options, title, note):
+    # What is refused is refused before the seconds that matplotlib takes to load.
+    sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+    from drawing import FIG2_PANELS, draw_motion, set_style
+
+    units = {}
+    if options.si:
+        for column, (factor, unit) in SHOWN_SI.items():
+            motion[column] = [factor * value for value in motion[column]]
+            units[column] = unit
+    set_style()
+    sheet = draw_motion(FIG2_PANELS, motion, units, note)
+    sheet.suptitle(title, fontsize=11)
+    kind = options.format or os.path.splitext(options.picture)[1][1:]
+    sheet.savefig(options.picture, dpi=150, format=kind, metadata={"Date": None} if kind == "svg" else None)
 
 
 def main():
@@ -104,19 +127,24 @@ def main():
                                      usage=argparse.SUPPRESS)
     parser.add_argument("trial")
     parser.add_argument("picture")
-    parser.add_argument("--title")
+    parser.add_argument("--format")
+    parser.add_argument("--node", default="")
+    parser.add_argument("--si", action="store_true")
+    parser.add_argument("--title", default="")
     options = parser.parse_args()
+    from_bag = options.trial.endswith(".bag")
     try:
-        trial = read_bag(options.trial) if options.trial.endswith(".bag") else read_csv(options.trial)
-        if not trial.t:
-            raise ValueError("there is no trial in it")
-        if options.title:
-            trial.title = options.title
-        draw(trial, options.picture)
-    except KeyError as error:
-        sys.exit("plot_trial.py: %s: has no column %s" % (options.trial, error))
-    except Exception as error:
-        sys.exit("plot_trial.py: %s: %s" % (options.trial, error))
+        motion, outcome = read_bag(options.trial, options.node, options.si) if from_bag else read_csv(options.trial)
+        if not motion["t"]:
+            raise BadTrial("there is no motion in it")
+    except (BadTrial, OSError, UnicodeDecodeError, csv.Error) as error:
+        print("align: %s: %s" % (options.trial, error), file=sys.stderr)
+        sys.exit(2)
+    note = "each the largest since the message before" if from_bag else ""
+    try:
+        draw(motion, options, options.title or outcome or os.path.basename(options.trial), note)
+    except OSError as error:
+        sys.exit("align: %s: cannot be written: %s" % (options.picture, error.strerror or error))
 
 
 if __name__ == "__main__":

@@ -162,7 +162,7 @@ int run_accuracy(const Options& options) {
   if (picture) {
     const std::string table = picture->temporary() + ".csv";
     write_csv(table, table, runs, reference);
-    run_script("plot_accuracy.py", {table, picture->temporary(), "--title", scene.name}, "--plot");
+    require_script("plot_accuracy.py", {table, picture->temporary(), "--title", scene.name}, "--plot");
     std::filesystem::remove(table);
     picture->commit();
   }

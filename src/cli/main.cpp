@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/merge_command.h"
+#include "cli/plot_command.h"
 #include "cli/reproduce_command.h"
 #include "cli/sweep_command.h"
 #include "cli/trial_command.h"
@@ -24,6 +25,7 @@ constexpr Command kCommands[] = {
     {"accuracy", "Show what accuracy costs in time: every solver on one scene", set_up_accuracy},
     {"calibrate", "Search for values such that given facts hold", set_up_calibrate},
     {"merge", "Put the files of a sweep's shards together", set_up_merge},
+    {"plot", "Draw a trial's CSV file or bag as the paper draws its Fig. 2", set_up_plot},
     {"reproduce", "Draw the paper's figures, and check what it states against them", set_up_reproduce},
     {"sweep", "Run the trials of a study: many, with varied values", set_up_sweep},
     {"trial", "Run one trial of a scene, without ROS, as fast as it goes", set_up_trial},

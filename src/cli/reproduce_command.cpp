@@ -143,7 +143,7 @@ int run_command(const Options& options) {
   write_text(folder / "ledger.md", ledger_markdown(suite.book, results));
   write_text(folder / "ledger.json", ledger_json(suite.book, results));
   write_figure_files(folder, suite.book, studies, tables);
-  if (!options.no_pictures) run_script("plot_figures.py", {folder.string()}, "pictures");
+  if (!options.no_pictures) require_script("plot_figures.py", {folder.string()}, "pictures");
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;
   if (!std::cout) throw OutputError("stdout", "the ledger is lost");
 

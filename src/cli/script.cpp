@@ -3,6 +3,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -11,7 +12,7 @@ extern char** environ;
 
 namespace vibratory_alignment {
 
-void run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose) {
+int run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose) {
   const std::filesystem::path script = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
   if (!std::filesystem::exists(script))
     throw std::runtime_error(purpose + ": " + script.string() + " is missing; is the package installed whole?");
@@ -24,9 +25,14 @@ void run_script(const std::string& name, const std::vector<std::string>& argumen
   const int error = posix_spawn(&child, script.c_str(), nullptr, nullptr, pointers.data(), environ);
   if (error != 0) throw std::runtime_error(purpose + ": " + script.string() + ": " + std::strerror(error));
   int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(purpose + ": " + script.string() + " failed; it needs python3-matplotlib");
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void require_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose) {
+  const int status = run_script(name, arguments, purpose);
+  if (status != 0) throw std::runtime_error(purpose + ": " + name + " failed with exit status " + std::to_string(status));
 }
 
 }  // namespace vibratory_alignment

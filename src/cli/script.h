@@ -6,8 +6,12 @@
 
 namespace vibratory_alignment {
 
-/// Runs the script `name` that is installed beside this program, and waits for it. `purpose` begins the messages.
-/// Throws std::runtime_error when it is missing or fails.
-void run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose);
+/// Runs the script `name` that is installed beside this program, waits for it, and returns its exit status: 0 it did
+/// what it is for; otherwise it has said on stderr why not. Ended by a signal: 128 + its number.
+/// Throws std::runtime_error that begins with `purpose` when it is missing or cannot be run.
+int run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose);
+
+/// The same for a script that has no reason to fail. Throws std::runtime_error when it does.
+void require_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose);
 
 }  // namespace vibratory_alignment

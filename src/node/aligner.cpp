@@ -10,6 +10,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "model/scene_loader.h"
+#include "node/scene_service.h"
 #include "node/transforms.h"
 
 namespace vibratory_alignment {
@@ -82,7 +83,8 @@ void Aligner::advertise() {
                handle_.advertiseService("pause", &Aligner::on_pause, this),
                handle_.advertiseService("step", &Aligner::on_step, this),
                handle_.advertiseService("step_by", &Aligner::on_step_by, this),
-               handle_.advertiseService("reset", &Aligner::on_reset, this)};
+               handle_.advertiseService("reset", &Aligner::on_reset, this),
+               advertise_load_scene(handle_, [this](const Scene& scene) { return change_scene(scene); })};
   restart_publisher_ = handle_.advertise<std_msgs::UInt32>("restarts", 1, true);
   announce_restart();
   publish_static_transforms();

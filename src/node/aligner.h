@@ -63,9 +63,12 @@ class Aligner {
   bool on_step_by(StepBy::Request& request, StepBy::Response& response);
   bool on_reset(Trigger::Request&, Trigger::Response& response);
   void on_settings(AlignerConfig& requested);
+  std::string change_scene(const Scene& scene);
   void on_goal(const AlignGoal& goal);
   void on_cancel();
 
+  void change_stage(std::unique_ptr<Stage> next, bool other_scene);
+  void show_start();
   void set_activity(Activity activity);
   void wait_for_subscribers();
   void run();

@@ -100,14 +100,48 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
   announce_restart();
   if (sim_clock_) sim_clock_->set_back();
   if (activity_ != Activity::waiting) {
-    set_activity(Activity::paused);
     publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
-    next_picture_ = {};
-    publish_next();
+    show_start();
   }
   response.success = true;
   response.message = "paused at the start";
   return true;
+}
+
+void Aligner::show_start() {
+  set_activity(Activity::paused);
+  next_picture_ = {};
+  publish_next();
+}
+
+/// The service ~load_scene.
+std::string Aligner::change_scene(const Scene& scene) {
+  NodeParameters parameters = parameters_;
+  parameters.time_scale = stage_->settings.config().time_scale;
+  double interval = interval_of(scene);
+  if (scene.scales.has_value() != stage_->scene.scales.has_value()) {  // seconds mean nothing to one of the two
+    parameters.time_scale = usual_time_scale(scene);
+    interval = sample_interval(parameters, scene);
+  }
+  auto next = std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_, interval);
+  if (align_server_.active()) {
+    align_server_.abort(stage_->messages, stage_->trial.result(), "another scene was loaded");
+    parameters_.autostart = false;
+  }
+  change_stage(std::move(next), true);
+  settings_server_.updateConfig(stage_->settings.config());
+  if (activity_ != Activity::waiting) show_start();
+  return scene.name + ": paused at the start";
+}
+
+/// Puts a trial in the place of the present one.
+void Aligner::change_stage(std::unique_ptr<Stage> next, bool other_scene) {
+  if (other_scene) warn_without_scales(next->scene);
+  publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
+  stage_ = std::move(next);
+  announce_restart();
+  if (sim_clock_) sim_clock_->begin_trial();
+  if (other_scene) publish_static_transforms();
 }
 
 void Aligner::on_settings(AlignerConfig& requested) {
@@ -134,13 +168,7 @@ void Aligner::on_goal(const AlignGoal& goal) {
   const GoalPlan plan = plan_goal(goal, stage_->scene, stage_->settings);
   const double interval = other_scene ? interval_of(plan.scene) : stage_->interval;
   auto next = std::make_unique<Stage>(plan.scene, plan.settings, plan.limits, frames_, interval);
-  // from here on nothing can go wrong
-  if (other_scene) warn_without_scales(plan.scene);
-  publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
-  stage_ = std::move(next);
-  announce_restart();
-  if (sim_clock_) sim_clock_->begin_trial();
-  if (other_scene) publish_static_transforms();
+  change_stage(std::move(next), other_scene);  // from here on nothing can go wrong
   if (other_scene || goal.set_excitation || goal.set_pressing_force) {
     settings_server_.updateConfig(stage_->settings.config());
   }

@@ -8,10 +8,12 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <dynamic_reconfigure/Config.h>
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
 
+#include "node/drive_settings.h"
 #include "node/frames.h"
 #include "node/markers.h"
 #include "node/messages.h"
@@ -20,6 +22,7 @@
 namespace vibratory_alignment {
 namespace {
 
+constexpr double kTimeScale = 1.0;  ///< as the settings tell it: a stamp is simulated time
 constexpr double kPictures = 1000.0;  ///< markers are written at most this often in trial.time_limit
 
 /// Peaks and impulses of `earlier`, to which no message was given, go into `later`.
@@ -129,6 +132,9 @@ class BagWriter::Impl {
       tf2_msgs::TFMessage fixed;
       fixed.transforms = static_transforms(scene_, messages_.frames(), {}, stamp);
       write_latched("/tf_static", stamp, fixed);
+      dynamic_reconfigure::Config settings;
+      DriveSettings(scene_, kTimeScale).config().__toMessage__(settings);
+      write_latched(node_ + "/parameter_updates", stamp, settings);
     }
     last_stamp_ = stamp;
     tf2_msgs::TFMessage moving;

@@ -16,8 +16,8 @@ struct BagOptions {
   std::string tf_prefix;               ///< as the node's parameter of that name
 };
 
-/// The bag holds /tf, /tf_static, NODE/state, NODE/reaction/a1, NODE/reaction/a2, NODE/contacts, NODE/markers and
-/// NODE/result. Stamps are kStartTime + simulated seconds (scenes without scales: units of time), so never 0.
+/// The bag holds /tf, /tf_static, NODE/state, NODE/reaction/a1, NODE/reaction/a2, NODE/contacts, NODE/markers,
+/// NODE/parameter_updates and NODE/result. Stamps are kStartTime + simulated seconds (scenes without scales: units of time), so never 0.
 /// The file is created by the constructor and removed by the destructor unless finish() has made it whole.
 class BagWriter {
  public:

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "node/messages.h"
+#include "node/quantity_text.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -98,22 +99,6 @@ class Boxes {
   Marker* marker_;
   double front_, back_, unit_;
 };
-
-/// "12.3 mm"; without scales "12.3".
-std::string with_unit(double value, const char* unit, bool has_scales) {
-  char text[64];
-  const char* prefix = "";
-  const double size = std::abs(value);
-  if (has_scales && size > 0.0 && size < 0.9995e-3) {
-    prefix = "u";
-    value *= 1e6;
-  } else if (has_scales && size > 0.0 && size < 0.9995) {
-    prefix = "m";
-    value *= 1e3;
-  }
-  std::snprintf(text, sizeof text, has_scales ? "%.3g %s%s" : "%.3g", value, prefix, unit);
-  return text;
-}
 
 }  // namespace
 
@@ -291,9 +276,9 @@ void Markers::draw_text(const ros::Time& stamp, MarkerArray& array) const {
   char tau[32];
   std::snprintf(tau, sizeof tau, "tau = %.2f", sample_.time);
   std::vector<std::string> lines = {tau};
-  if (has_scales_) lines.push_back("t = " + with_unit(sample_.time * units_.time, "s", true));
-  lines.push_back("misalignment " + with_unit(sample_.misalignment * units_.length, "m", has_scales_));
-  lines.push_back("largest reaction " + with_unit(largest_force_ * units_.force, "N", has_scales_));
+  if (has_scales_) lines.push_back("t = " + quantity_text(sample_.time * units_.time, "s", true));
+  lines.push_back("misalignment " + quantity_text(sample_.misalignment * units_.length, "m", has_scales_));
+  lines.push_back("largest reaction " + quantity_text(largest_force_ * units_.force, "N", has_scales_));
   lines.push_back(std::string("mode ") + to_string(sample_.mode));
   if (outcome_ != Outcome::running) lines.emplace_back(to_string(outcome_));
 

@@ -52,7 +52,11 @@ geometry_msgs::Vector3 ros_vector(double x, double y, double unit) {
 }
 
 Messages::Messages(const Scene& scene, const Frames& frames)
-    : scene_name_(scene.name), has_scales_(scene.scales.has_value()), units_(ros_units(scene)), frames_(frames) {}
+    : scene_name_(scene.name),
+      scene_units_(scene.units == Units::si ? "si" : "dimensionless"),
+      has_scales_(scene.scales.has_value()),
+      units_(ros_units(scene)),
+      frames_(frames) {}
 
 PlanarState Messages::dimensionless(const State& state) const {
   PlanarState message;
@@ -81,6 +85,7 @@ AlignerState Messages::state(const Sample& sample, const ros::Time& stamp) const
   message.header.stamp = stamp;
   message.header.frame_id = frames_.slot;
   message.scene = scene_name_;
+  message.units = scene_units_;
   message.has_scales = has_scales_;
   message.length_scale = units_.length;
   message.force_scale = units_.force;

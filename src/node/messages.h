@@ -50,7 +50,7 @@ class Messages {
   PlanarState si(const State& state) const;
   AlignerContact contact(const Sample& sample, Spot spot) const;
 
-  std::string scene_name_;
+  std::string scene_name_, scene_units_;
   bool has_scales_;
   OutputUnits units_;
   Frames frames_;

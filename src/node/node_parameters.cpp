@@ -102,7 +102,7 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
   parameters.time_scale = reader
                               .number("time_scale", "must be a number from 0 to 1000",
                                       [](double value) { return value >= 0.0 && value <= 1000.0; })
-                              .value_or(scene.scales ? kSlowMotion : 1.0);
+                              .value_or(usual_time_scale(scene));
   parameters.publish_rate =
       reader.number("publish_rate", "must be a number > 0 [1/s]", positive).value_or(parameters.publish_rate);
   parameters.sample_interval =
@@ -131,6 +131,8 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
   reader.throw_faults();
   return parameters;
 }
+
+double usual_time_scale(const Scene& scene) { return scene.scales ? kSlowMotion : 1.0; }
 
 double sample_interval(const NodeParameters& parameters, const Scene& scene) {
   if (parameters.sample_interval) return *parameters.sample_interval / output_units(scene).time;

@@ -39,6 +39,9 @@ const std::vector<std::string>& topic_names();
 /// Throws ParameterError with every fault.
 NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const Scene& scene);
 
+/// The time scale of a node that is not told one.
+double usual_time_scale(const Scene& scene);
+
 /// Time between two samples, dimensionless: ~sample_interval, or what ~time_scale and ~publish_rate make of it at the
 /// start, or for ~time_scale 0 a twentieth of the shortest excitation period. It stays the same when the time scale
 /// changes later: then the rate of the messages changes.

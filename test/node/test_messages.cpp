@@ -48,6 +48,7 @@ TEST_F(MessagesTest, StateIsGivenDimensionlessAndInSi) {
   EXPECT_EQ(state.header.stamp, kStamp);
   EXPECT_EQ(state.header.frame_id, "slot");
   EXPECT_EQ(state.scene, "small");
+  EXPECT_EQ(state.units, "dimensionless");
   EXPECT_TRUE(state.has_scales);
   EXPECT_EQ(state.tau, 2.0);
   EXPECT_DOUBLE_EQ(state.time, 2.0 * kTime);

@@ -1,0 +1,78 @@
+"""What the drawing scripts share: matplotlib without a screen, the look of axes, and the figure of a motion.
+
+A script that imports this ends with a message where there is no matplotlib.
+"""
+
+import sys
+
+try:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+except ImportError as error:
+    sys.exit("a picture needs matplotlib (apt-get install python3-matplotlib), which %s does not find: %s"
+             % (sys.executable, error))
+
+# Told apart also in grey and by those who see colours otherwise (Okabe and Ito).
+BLUE, ORANGE = "#0072B2", "#D55E00"
+
+# The paper's symbols for the columns of a motion.
+MOTION_SYMBOLS = {
+    "x": r"$x_C$",
+    "y": r"$y_C$",
+    "vx": r"$\dot x_C$",
+    "vy": r"$\dot y_C$",
+    "phi": r"$\varphi$",
+    "omega": r"$\dot\varphi$",
+    "n1": r"$n_1$",
+    "n2": r"$n_2$",
+}
+
+# Curves in the paper's order and pairing, Fig. 2 a to f.
+FIG2_PANELS = (("x",), ("y",), ("vx",), ("vy",), ("phi",), ("n1", "n2"))
+
+
+def set_style():
+    plt.rcParams.update({"font.size": 10, "mathtext.fontset": "cm", "svg.hashsalt": "figures", "hatch.linewidth": 0.6})
+
+
+def tidy(axes):
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def draw_motion(panels, motion, units=None, force_note=""):
+    """The panels a, b, ... of a trial; where their number is odd the last one spans the sheet.
+
+    motion maps each column to its values, "t" to the instants; units may map a column to the unit that its axis names.
+    """
+    units = units or {}
+    lines = (len(panels) + 1) // 2
+    sheet = plt.figure(figsize=(7.2, 1.75 * lines + 0.4), layout="constrained")
+    grid = sheet.add_gridspec(lines, 2)
+    time = motion["t"]
+
+    def label(*columns):
+        unit = units.get(columns[0], "")
+        return ", ".join(MOTION_SYMBOLS[column] for column in columns) + (" [%s]" % unit if unit else "")
+
+    for number, columns in enumerate(panels):
+        wide = number == len(panels) - 1 and len(panels) % 2 == 1
+        axes = sheet.add_subplot(grid[number // 2, :] if wide else grid[number // 2, number % 2])
+        for column, colour in zip(columns, (BLUE, ORANGE)):
+            axes.plot(time, motion[column], color=colour, linewidth=0.9, label=MOTION_SYMBOLS[column])
+        axes.set_ylabel(label(*columns))
+        axes.set_title("%s)" % "abcdefg"[number], loc="left", fontsize=9)
+        if time[-1] > time[0]:
+            axes.set_xlim(time[0], time[-1])
+        if columns[0].startswith("n"):
+            axes.set_ylim(bottom=0.0)
+            axes.set_title(force_note, fontsize=8, color="0.4")
+        if len(columns) > 1:
+            axes.legend(frameon=False, ncol=2, fontsize=8, loc="upper right")
+        axes.set_xlabel("$t$ [%s]" % units["t"] if "t" in units else r"$\tau$", labelpad=1)
+        tidy(axes)
+    return sheet

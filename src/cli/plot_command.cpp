@@ -1,0 +1,95 @@
+#include "cli/plot_command.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/errors.h"
+#include "cli/interrupt.h"
+#include "cli/output_path.h"
+#include "cli/script.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr std::array<const char*, 3> kFormats = {"png", "svg", "pdf"};
+
+constexpr char kFooter[] = R"(Examples:
+  align plot run.csv run.png                 of `align trial --csv run.csv`
+  align plot trial.bag trial.svg             of `align trial --bag`, or recorded from aligner_node
+  align plot trial.bag trial.png --si        in ms, mm, mm/s, mrad and N
+
+The panels are those of the paper's Fig. 2: x, y, their velocities, the tilt, and the reactions n1 and n2 at the slot's
+edges. A CSV file is drawn in its own units and with the forces at its instants; a bag in dimensionless numbers, and with
+the largest forces since the message before. Of a bag in which the trial was reset, the last run is drawn.
+It needs python3-matplotlib, and for bags python3-rosbag.
+Exit status: 0 it is drawn; 1 it failed while drawing; 2 bad usage, or a file that cannot be drawn.)";
+
+struct Options {
+  std::string trial, picture, node, title;
+  bool si = false;
+};
+
+/// The ending of the picture's name, which says how it is written.
+std::string format_of(const std::string& picture) {
+  const std::string ending = std::filesystem::path(picture).extension().string();
+  std::string allowed;
+  for (const char* format : kFormats) {
+    if (ending == std::string(".") + format) return format;
+    allowed += (allowed.empty() ? "." : ", .") + std::string(format);
+  }
+  throw UsageError("PICTURE: " + picture + ": the name must end in one of " + allowed);
+}
+
+void check_readable(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw UsageError("TRIAL: " + path + ": is a directory");
+  errno = 0;
+  if (!std::ifstream(path)) throw UsageError("TRIAL: " + path + ": cannot be read: " + std::strerror(errno));
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".csv" && ending != ".bag")
+    throw UsageError("TRIAL: " + path + ": the name must end in .csv or .bag");
+}
+
+int run_plot(const Options& options) {
+  const std::string format = format_of(options.picture);
+  check_readable(options.trial);
+  if (!options.node.empty() && std::filesystem::path(options.trial).extension() != ".bag")
+    throw UsageError("--node: only a bag has nodes");
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.trial, options.picture, ignored))
+    throw UsageError("PICTURE: " + options.picture + ": is the trial; it is not overwritten");
+  OutputPath picture("PICTURE", options.picture);
+  std::vector<std::string> arguments = {options.trial, picture.temporary(), "--format", format};
+  if (options.si) arguments.emplace_back("--si");
+  if (!options.node.empty()) arguments.insert(arguments.end(), {"--node", options.node});
+  if (!options.title.empty()) arguments.insert(arguments.end(), {"--title", options.title});
+  const InterruptGuard interrupt;
+  const int status = run_script("plot_trial.py", arguments, "plot");
+  if (interrupt.signal() != 0) return 128 + interrupt.signal();
+  if (status == 0) picture.commit();
+  return status;
+}
+
+}  // namespace
+
+std::function<int()> set_up_plot(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.footer(kFooter);
+  app.add_option("TRIAL", options->trial, "A CSV file (.csv) or a bag (.bag) of a trial")->required();
+  app.add_option("PICTURE", options->picture, "The picture to write: .png, .svg or .pdf")->required();
+  app.add_option("--node", options->node, "Which aligner of a bag that has several")->type_name("NAME");
+  app.add_flag("--si", options->si,
+               "SI units: of a bag whose scene has scales; of a CSV\nfile whose scene has `units: si`");
+  app.add_option("--title", options->title, "Title of the picture; else the outcome, or the file's name")
+      ->type_name("TEXT");
+  return [options] { return run_plot(*options); };
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,268 @@
+#include "rviz_panel/aligner_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <ros/master.h>
+#include <ros/service.h>
+#include <std_srvs/Trigger.h>
+#include <vibratory_alignment/LoadScene.h>
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr std::uint32_t kQueueSize = 2000;
+constexpr std::size_t kKeptSamples = 5000;  ///< until they are taken
+constexpr std::chrono::milliseconds kLookInterval(1000);
+constexpr std::chrono::milliseconds kPatience(3000);  ///< with a node that does not answer
+constexpr std::chrono::milliseconds kStandstill(400);  ///< without a sample: the trial stands still
+constexpr double kTurn = 0.02;                         ///< of the worker [s]
+
+template <class Entries, class Value>
+void set_entry(Entries& entries, const std::string& name, Value value) {
+  for (auto& entry : entries) {
+    if (entry.name == name) {
+      entry.value = value;
+      return;
+    }
+  }
+  entries.emplace_back();
+  entries.back().name = name;
+  entries.back().value = value;
+}
+
+bool is_empty(const dynamic_reconfigure::Config& config) {
+  return config.bools.empty() && config.ints.empty() && config.doubles.empty();
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// Words about what the node has made of the changes otherwise; empty: they are in force.
+template <class Entries>
+std::string departures(const Entries& asked, const Entries& in_force) {
+  std::string words;
+  for (const auto& entry : asked) {
+    for (const auto& other : in_force) {
+      if (other.name != entry.name || other.value == entry.value) continue;
+      const double wanted = static_cast<double>(entry.value), got = static_cast<double>(other.value);
+      words += (words.empty() ? "" : "; ") + entry.name + ": " + number(wanted) + " is not possible, it is " + number(got);
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+AlignerLink::AlignerLink(const std::string& node) : node_(node) {
+  handle_.setCallbackQueue(&queue_);
+  subscribe();
+  worker_ = std::thread([this] { work(); });
+}
+
+AlignerLink::~AlignerLink() {
+  ending_ = true;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (busy_since_) client_.shutdown();
+  }
+  worker_.join();
+}
+
+void AlignerLink::subscribe() {
+  subscribers_ = {handle_.subscribe(node_ + "/state", kQueueSize, &AlignerLink::on_state, this),
+                  handle_.subscribe(node_ + "/result", 1, &AlignerLink::on_result, this),
+                  handle_.subscribe(node_ + "/parameter_updates", 10, &AlignerLink::on_settings, this)};
+}
+
+// --- What the panel calls ---------------------------------------------------------------------------------------------
+
+void AlignerLink::trigger(const std::string& service) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  triggers_.push_back(service);
+}
+
+void AlignerLink::load_scene(const std::string& scene) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  scene_ = scene;
+}
+
+void AlignerLink::change(const std::string& setting, double value) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.changing = true;
+  if (setting == "enabled") {
+    set_entry(changes_.bools, setting, static_cast<std::uint8_t>(value != 0.0));
+  } else if (setting == "waveform") {
+    set_entry(changes_.ints, setting, static_cast<std::int32_t>(value));
+  } else {
+    set_entry(changes_.doubles, setting, value);
+  }
+}
+
+AlignerLink::Status AlignerLink::status() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  drop_hanging_call();
+  const auto now = Clock::now();
+  const Clock::duration gap = std::max<Clock::duration>(kStandstill, 4 * (last_arrival_ - arrival_before_));
+  status_.running = !status_.result && last_arrival_ != Clock::time_point() && arrival_before_ != Clock::time_point() &&
+                    now - arrival_before_ < gap;
+  return status_;
+}
+
+std::vector<AlignerState> AlignerLink::take_samples() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(samples_, {});
+}
+
+/// A call has no time limit of its own; without its connection it ends.
+void AlignerLink::drop_hanging_call() {
+  if (busy_since_ && Clock::now() - *busy_since_ > kPatience) client_.shutdown();
+}
+
+// --- What the node publishes ------------------------------------------------------------------------------------------
+
+void AlignerLink::on_state(const AlignerState& state) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (status_.result && state.header.stamp > status_.result->header.stamp) status_.result.reset();
+  if (status_.state && state.tau <= status_.state->tau) {
+    samples_.clear();
+    last_arrival_ = {};
+  }
+  status_.state = state;
+  arrival_before_ = std::exchange(last_arrival_, Clock::now());
+  if (samples_.size() < kKeptSamples) samples_.push_back(state);
+}
+
+void AlignerLink::on_result(const AlignerResult& result) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  // A latched result may be that of the trial before; that of the present one bears the stamp of its last sample.
+  if (status_.state && status_.state->header.stamp > result.header.stamp) return;
+  status_.result = result;
+}
+
+void AlignerLink::on_settings(const dynamic_reconfigure::Config& settings) {
+  dynamic_reconfigure::Config message = settings;
+  AlignerConfig config = AlignerConfig::__getDefault__();
+  if (!config.__fromMessage__(message)) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.settings = config;
+}
+
+// --- The worker -------------------------------------------------------------------------------------------------------
+
+void AlignerLink::work() {
+  while (!ending_ && ros::ok()) {
+    queue_.callAvailable(ros::WallDuration(kTurn));
+    while (!ending_ && carry_out_next()) queue_.callAvailable(ros::WallDuration(0.0));
+    if (!ending_ && Clock::now() >= next_look_) look_for_node();
+  }
+}
+
+void AlignerLink::look_for_node() {
+  const bool master = ros::master::check();
+  const bool there = master && ros::service::exists(node_ + "/start", false);
+  next_look_ = Clock::now() + kLookInterval;
+  bool back = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const Presence before = status_.presence;
+    status_.presence = !master ? Presence::no_master : there ? Presence::present : Presence::absent;
+    back = there && (before == Presence::absent || before == Presence::no_master);
+    if (!there || back) status_.settings.reset();
+    if (back) {
+      status_.result.reset();
+      status_.answer.clear();
+      status_.refused = false;
+      last_arrival_ = {};
+    }
+    if (!there) {
+      triggers_.clear();
+      scene_.reset();
+      changes_ = {};
+      status_.changing = false;
+    }
+  }
+  if (back) {  // a new master does not know of these subscriptions
+    subscribers_.clear();
+    subscribe();
+  }
+}
+
+/// False when nothing waits.
+bool AlignerLink::carry_out_next() {
+  std::string service;
+  std::optional<std::string> scene;
+  dynamic_reconfigure::Config changes;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!is_empty(changes_)) {
+      std::swap(changes, changes_);
+    } else if (!triggers_.empty()) {
+      service = triggers_.front();
+      triggers_.erase(triggers_.begin());
+    } else if (scene_) {
+      std::swap(scene, scene_);
+    } else {
+      return false;
+    }
+  }
+  if (!is_empty(changes)) {
+    carry_out(changes);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_.changing = !is_empty(changes_);
+  } else if (scene) {
+    LoadScene load;
+    load.request.scene = *scene;
+    if (call("load_scene", load)) tell(!load.response.success, load.response.message);
+  } else {
+    std_srvs::Trigger message;
+    if (call(service, message)) tell(!message.response.success, message.response.message);
+  }
+  return true;
+}
+
+void AlignerLink::carry_out(const dynamic_reconfigure::Config& changes) {
+  dynamic_reconfigure::Reconfigure message;
+  message.request.config = changes;
+  if (!call("set_parameters", message)) return;
+  const dynamic_reconfigure::Config& answer = message.response.config;
+  const std::string words = departures(changes.doubles, answer.doubles) + departures(changes.ints, answer.ints) +
+                            departures(changes.bools, answer.bools);
+  tell(!words.empty(), words);
+  on_settings(answer);
+}
+
+/// False, and the user is told, if the node does not answer.
+template <class Service>
+bool AlignerLink::call(const std::string& service, Service& message) {
+  ros::ServiceClient client = handle_.serviceClient<Service>(node_ + "/" + service, true);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    client_ = client;
+    busy_since_ = Clock::now();
+  }
+  const bool answered = client.call(message);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!answered) {
+    const bool hanging = Clock::now() - *busy_since_ > kPatience;
+    status_.answer = node_ + (hanging ? " does not answer" : " has no service " + service + " that answers");
+    status_.refused = true;
+  }
+  client_ = {};
+  busy_since_.reset();
+  return answered;
+}
+
+void AlignerLink::tell(bool refused, const std::string& answer) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.refused = refused;
+  status_.answer = answer;
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,56 @@
+// The settings of an aligner with their units: what holds in the node, and fields to change it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <QWidget>
+#include <vibratory_alignment/AlignerConfig.h>
+
+#include "rviz_panel/number_field.h"
+
+class QCheckBox;
+class QComboBox;
+class QGridLayout;
+class QLabel;
+
+namespace vibratory_alignment {
+
+/// What the numbers of the settings mean.
+struct SettingUnits {
+  bool si = false;          ///< N and Hz; else F1 and radians per dimensionless time
+  bool has_scales = false;  ///< of a dimensionless scene: the SI values are known
+  double force = 1.0;       ///< 1 dimensionless force [N]
+  double time = 1.0;        ///< 1 dimensionless time [s]
+};
+
+class SettingsForm : public QWidget {
+ public:
+  using Change = std::function<void(const std::string& setting, double value)>;
+
+  /// `change` is called when the user changes a value.
+  explicit SettingsForm(Change change, QWidget* parent = nullptr);
+
+  /// Shows what is in force; a field in which the user is typing stays as it is.
+  void show_settings(const AlignerConfig& settings, const SettingUnits& units);
+
+ private:
+  struct Number {
+    std::string setting;
+    double AlignerConfig::*value;
+    NumberField* field;
+    QLabel* note;
+  };
+
+  void add_number(QGridLayout& grid, const char* title, const char* setting, double AlignerConfig::*value);
+  QString unit_of(const Number& number, const SettingUnits& units) const;
+  QString note_of(const Number& number, double value, const SettingUnits& units) const;
+
+  Change change_;
+  QCheckBox* enabled_;
+  QComboBox* waveform_;
+  std::vector<Number> numbers_;
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,100 @@
+"""`align plot`: pictures of CSV files and bags, and what it refuses."""
+
+import os
+import struct
+import unittest
+import xml.etree.ElementTree
+
+from align_test_case import AlignTestCase
+
+PANELS = ["a)", "b)", "c)", "d)", "e)", "f)"]
+
+
+class PlotTest(AlignTestCase):
+    def setUp(self):
+        super().setUp()
+        self.csv, self.bag = self.path("run.csv"), self.path("run.bag")
+        process = self.align("trial", self.scene(), "--csv", self.csv, "--bag", self.bag)
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def plot(self, *arguments, **options):
+        process = self.align("plot", *arguments, **options)
+        self.assertEqual((process.returncode, process.stderr, process.stdout), (0, "", ""))
+
+    def curves(self, path):
+        """Of each curve of an SVG file the number of its points; comments hold the words."""
+        counts = []
+        for group in xml.etree.ElementTree.parse(path).iter("{http://www.w3.org/2000/svg}path"):
+            clipped = "clip-path" in group.attrib and "stroke: #b0b0b0" not in group.get("style", "")
+            if clipped and ("#0072b2" in group.get("style", "") or "#d55e00" in group.get("style", "")):
+                counts.append(group.get("d").count("L") + 1)
+        return counts
+
+    def test_draws_the_six_panels_of_a_csv_file_and_a_bag(self):
+        texts = []
+        for trial in (self.csv, self.csv, self.bag):
+            picture = self.path("run.svg")
+            self.plot(trial, picture, "--title", "A trial of mine")
+            with open(picture) as file:
+                texts.append(file.read())
+            for words in ["A trial of mine"] + PANELS:
+                self.assertIn("<!-- %s -->" % words, texts[-1])
+            self.assertEqual(len(self.curves(picture)), 7, "x, y, vx, vy, phi, n1, n2")
+        self.assertEqual(texts[0], texts[1], "the same trial gives the same picture")
+
+    def test_the_ending_decides_on_the_format(self):
+        self.plot(self.csv, self.path("run.png"), "--si")
+        with open(self.path("run.png"), "rb") as file:
+            head = file.read(24)
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        width, height = struct.unpack(">II", head[16:24])
+        self.assertGreater(width, 800)
+        self.assertGreater(height, 600)
+        self.assert_refused(["plot", self.csv, self.path("run.jpeg")], "run.jpeg", ".png", ".svg", ".pdf")
+
+    def test_refuses_files_without_a_trial(self):
+        picture = self.path("run.png")
+        self.assert_refused(["plot", self.path("none.csv"), picture], "none.csv", "No such file")
+        self.assert_refused(["plot", self.directory, picture], self.directory, "is a directory")
+        self.assert_refused(["plot", self.write("a.txt", "t"), picture], "a.txt", ".csv or .bag")
+        with open(self.csv) as file:
+            lines = file.read().splitlines()
+        without = self.write("a.csv", "\n".join(lines).replace("vy", "v_y"))
+        self.assert_refused(["plot", without, picture], "a.csv", "has no column vy")
+        wrong = self.write("b.csv", "\n".join(lines[:2] + [lines[2].replace(",", ",high", 1)]))
+        self.assert_refused(["plot", wrong, picture], "b.csv", "line 3: x: high", "must be a number")
+        self.assert_refused(["plot", self.write("c.csv", lines[0] + "\n"), picture], "c.csv", "no motion in it")
+        self.assert_refused(["plot", self.write("d.bag", "no bag"), picture], "d.bag", "not a whole bag")
+        self.assert_refused(["plot", self.bag, picture, "--node", "left"], "left", "/aligner")
+        self.assert_refused(["plot", self.bag, picture, "--si"], "run.bag", "--si", "no scales")
+        self.assertFalse(os.path.exists(picture))
+        self.assertFalse(os.path.exists(picture + ".part"))
+
+    def test_refuses_a_bag_of_something_else(self):
+        import rosbag
+        from std_msgs.msg import String
+
+        with rosbag.Bag(self.path("other.bag"), "w") as bag:
+            bag.write("/chatter", String("hello"))
+        self.assert_refused(["plot", self.path("other.bag"), self.path("run.png")], "no topic state", "/chatter")
+
+    def test_an_output_that_cannot_be_written(self):
+        self.assert_refused(["plot", self.csv, self.path("no/such/a.png")], "no/such/a.png", "No such file or directory")
+        self.assert_refused(["plot", self.csv, self.csv], "run.csv", ".png")
+        os.symlink("/dev/full", self.path("full.png"))
+        process = self.align("plot", self.csv, self.path("full.png"))
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("No space left on device", process.stderr)
+        self.assertNotIn("Traceback", process.stderr)
+
+    def test_missing_matplotlib_is_named(self):
+        os.mkdir(self.path("modules"))
+        self.write("modules/matplotlib.py", "raise ImportError('No module named matplotlib')")
+        process = self.align("plot", self.csv, self.path("run.png"), environment={"PYTHONPATH": self.path("modules")})
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("python3-matplotlib", process.stderr)
+        self.assertNotIn("Traceback", process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,213 @@
+// The panel beside a real node: clicks, typing, other clients, a node that goes and comes back.
+#include <csignal>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <ros/ros.h>
+#include <rviz/config.h>
+
+#include "panel_clicks.h"
+#include "rviz_panel/aligner_panel.h"
+#include "rviz_panel/history_plot.h"
+#include "rviz_panel/number_field.h"
+
+namespace vibratory_alignment {
+namespace {
+
+std::unique_ptr<NodeProcess> node;
+
+class PanelTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    panel_.resize(340, 760);
+    panel_.show();
+    ASSERT_TRUE(wait_until([this] { return child<QWidget>(panel_, "settings").isEnabled(); })) << presence();
+    bool at_start = false;
+    for (int tries = 0; tries < 5 && !at_start; ++tries) {  // the node may know of the panel later than it of the node
+      click(panel_, "reset");
+      at_start = wait_until([this] { return points() == 1 && says("presence", "paused"); }, 3000);
+    }
+    ASSERT_TRUE(at_start) << presence();
+  }
+
+  bool says(const char* label, const char* words) { return vibratory_alignment::says(panel_, label, words); }
+  std::string presence() { return child<QLabel>(panel_, "presence").text().toStdString(); }
+  HistoryPlot& plot() { return child<HistoryPlot>(panel_, "plot"); }
+  NumberField& number(const char* name) { return child<NumberField>(panel_, name); }
+  std::size_t points() { return plot().history().points().size(); }
+
+  void type(const char* field, const char* text) {
+    auto* const edit = number(field).findChild<QLineEdit*>();
+    edit->setFocus();
+    edit->selectAll();
+    QTest::keyClicks(edit, text);
+  }
+
+  /// A setting as the node has it.
+  template <class Value>
+  static Value in_node(const std::string& name) {
+    Value value{};
+    ros::param::get("/aligner/" + name, value);
+    return value;
+  }
+
+  /// Another client of dynamic_reconfigure.
+  static void change_elsewhere(const std::string& name, double value) {
+    dynamic_reconfigure::Reconfigure message;
+    message.request.config.doubles.resize(1);
+    message.request.config.doubles[0].name = name;
+    message.request.config.doubles[0].value = value;
+    ASSERT_TRUE(ros::service::call("/aligner/set_parameters", message));
+  }
+
+  AlignerPanel panel_;
+};
+
+TEST_F(PanelTest, ButtonsRunPauseStepAndResetTheTrial) {
+  click(panel_, "start");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "running: small") && points() > 20; })) << presence();
+  click(panel_, "pause");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "paused"); })) << presence();
+  const std::size_t paused_at = points();
+  click(panel_, "step");
+  ASSERT_TRUE(wait_until([&] { return points() == paused_at + 1; }));
+  QTest::qWait(300);
+  EXPECT_EQ(points(), paused_at + 1);
+  click(panel_, "reset");
+  ASSERT_TRUE(wait_until([&] { return points() == 1; }));
+  EXPECT_EQ(plot().history().points()[0].time, 0.0);
+}
+
+TEST_F(PanelTest, ShowsProgressAndOutcome) {
+  change_elsewhere("time_scale", 0.0);
+  click(panel_, "start");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "ended"); })) << presence();
+  EXPECT_TRUE(says("outcome", "time limit at 15 ms")) << child<QLabel>(panel_, "outcome").text().toStdString();
+  EXPECT_TRUE(says("outcome", "impact mode"));
+  const HistoryPoint& last = plot().history().points().back();
+  EXPECT_NEAR(last.time, 0.015, 1e-12);
+  // 0.2 at the start, 0.09 is the clearance, both in units of 2 mm
+  const double progress = (0.4e-3 - last.misalignment) / (0.4e-3 - 0.18e-3);
+  EXPECT_NEAR(child<QProgressBar>(panel_, "progress").value() / 1000.0, progress, 1e-3);
+  click(panel_, "start");
+  EXPECT_TRUE(wait_until([this] { return says("answer", "the trial has ended; reset it first"); }));
+  change_elsewhere("time_scale", 0.005);
+}
+
+TEST_F(PanelTest, WhatIsTypedIsInForceInTheNode) {
+  type("pressing_force", "0.35");
+  QTest::qWait(200);
+  EXPECT_NE(in_node<double>("pressing_force"), 0.35) << "not before Enter";
+  QTest::keyClick(number("pressing_force").findChild<QLineEdit*>(), Qt::Key_Enter);
+  EXPECT_TRUE(wait_until([] { return in_node<double>("pressing_force") == 0.35; }));
+  EXPECT_EQ(number("pressing_force").suffix(), QString::fromUtf8(" F\u2081"));
+  child<QCheckBox>(panel_, "enabled").click();
+  EXPECT_TRUE(wait_until([] { return !in_node<bool>("enabled"); }));
+  child<QCheckBox>(panel_, "enabled").click();
+  EXPECT_TRUE(wait_until([] { return in_node<bool>("enabled"); }));
+  EXPECT_EQ(in_node<double>("pressing_force"), 0.35) << "other settings stay";
+}
+
+TEST_F(PanelTest, ShowsWhatOthersChange) {
+  change_elsewhere("frequency", 23.5);
+  EXPECT_TRUE(wait_until([this] { return number("frequency").value() == 23.5; }));
+  EXPECT_EQ(number("frequency").text(), "23.5");
+}
+
+TEST_F(PanelTest, LeavesAFieldAloneInWhichSomeoneTypes) {
+  panel_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&panel_));
+  type("amplitude", "1.2");
+  change_elsewhere("amplitude", 0.9);
+  change_elsewhere("frequency", 21.5);
+  ASSERT_TRUE(wait_until([this] { return number("frequency").value() == 21.5; }));
+  EXPECT_EQ(number("amplitude").findChild<QLineEdit*>()->text().left(3), "1.2");
+  QTest::keyClick(number("amplitude").findChild<QLineEdit*>(), Qt::Key_Enter);
+  EXPECT_TRUE(wait_until([] { return in_node<double>("amplitude") == 1.2; }));
+}
+
+TEST_F(PanelTest, SaysWhatIsRefused) {
+  auto& waveform = child<QComboBox>(panel_, "waveform");
+  waveform.setCurrentIndex(3);
+  Q_EMIT waveform.activated(3);
+  EXPECT_TRUE(wait_until([this] { return says("answer", "waveform: 3 is not possible"); }));
+  EXPECT_TRUE(wait_until([&] { return waveform.currentText() == "sine"; }));
+}
+
+TEST_F(PanelTest, LoadsAnotherScene) {
+  auto& scene = child<QComboBox>(panel_, "scene");
+  EXPECT_GE(scene.findText("hard/chatter"), 0);
+  scene.setCurrentText("gripper_si");
+  click(panel_, "load");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "paused: gripper_si"); })) << presence();
+  EXPECT_TRUE(wait_until([this] { return number("pressing_force").suffix() == " N"; }));
+  EXPECT_EQ(points(), 1U);
+  scene.setCurrentText("no_such_scene");
+  click(panel_, "load");
+  EXPECT_TRUE(wait_until([this] { return says("answer", "no_such_scene"); }));
+  EXPECT_TRUE(says("presence", "gripper_si")) << "the one before stays";
+  scene.setCurrentText(SMALL_SCENE);
+  click(panel_, "load");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "paused: small"); })) << presence();
+  click(panel_, "start");
+  EXPECT_TRUE(wait_until([this] { return says("presence", "running: small"); })) << presence();
+}
+
+TEST_F(PanelTest, ANodeThatHangsDoesNotHoldUpThePanel) {
+  ::kill(static_cast<pid_t>(node->pid()), SIGSTOP);
+  click(panel_, "start");  // would wait here for ever
+  EXPECT_TRUE(wait_until([this] { return says("answer", "/aligner does not answer"); }));
+  ::kill(static_cast<pid_t>(node->pid()), SIGCONT);
+  click(panel_, "reset");
+  EXPECT_TRUE(wait_until([this] { return says("answer", "paused at the start"); }));
+}
+
+TEST_F(PanelTest, SaysWhenTheNodeIsGoneAndFindsItAgain) {
+  node->kill();
+  ASSERT_TRUE(wait_until([this] { return says("presence", "no node /aligner"); })) << presence();
+  EXPECT_FALSE(child<QWidget>(panel_, "controls").isEnabled());
+  EXPECT_FALSE(child<QWidget>(panel_, "settings").isEnabled());
+  node->start();
+  ASSERT_TRUE(wait_until([this] { return child<QWidget>(panel_, "settings").isEnabled(); })) << presence();
+  click(panel_, "start");
+  EXPECT_TRUE(wait_until([this] { return says("presence", "running: small"); })) << presence();
+  EXPECT_TRUE(wait_until([this] { return points() > 20; }));
+}
+
+TEST_F(PanelTest, KeepsItsSettingsInTheFileOfRviz) {
+  child<QComboBox>(panel_, "scene").setCurrentText("hard/chatter");
+  child<QPushButton>(panel_, "show_plot").setChecked(false);
+  panel_.set_node("left/aligner/");
+  EXPECT_TRUE(wait_until([this] { return says("presence", "no node /left/aligner"); })) << presence();
+  rviz::Config config;
+  panel_.save(config);
+
+  AlignerPanel other;
+  other.load(config);
+  EXPECT_EQ(child<QLineEdit>(other, "node").text(), "/left/aligner");
+  EXPECT_EQ(child<QComboBox>(other, "scene").currentText(), "hard/chatter");
+  EXPECT_FALSE(child<QPushButton>(other, "show_plot").isChecked());
+  EXPECT_TRUE(child<QPushButton>(other, "show_settings").isChecked());
+  EXPECT_TRUE(child<QWidget>(other, "plot").isHidden());
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
+
+int main(int argc, char** argv) {
+  qputenv("QT_QPA_PLATFORM", "offscreen");
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_panel");
+  const QApplication application(argc, argv);
+  const ros::NodeHandle handle;  // ROS goes on between two panels
+  vibratory_alignment::node = std::make_unique<vibratory_alignment::NodeProcess>();
+  const int status = RUN_ALL_TESTS();
+  vibratory_alignment::node.reset();
+  return status;
+}
