@@ -145,7 +145,8 @@ TEST_P(BatteryScenes, shipped_scenes_have_the_same_outcome) {
     EXPECT_EQ(result.outcome, event.outcome) << name << " " << result.failure;
     EXPECT_EQ(result.mode, event.mode) << name;
     if (!event.aligned_time || !result.aligned_time) continue;
-    const double allowed = fixed_step() ? 0.1 * *event.aligned_time : 1e-5;
+    // with a fixed step the part of Fig. 2 may bounce once more before it slips down
+    const double allowed = fixed_step() ? 0.15 * *event.aligned_time : 1e-5;
     EXPECT_NEAR(*result.aligned_time, *event.aligned_time, allowed) << name;
   }
 }

@@ -44,7 +44,7 @@ class Bags(AlignerTestCase):
         def end():
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
-            process.communicate(timeout=20.0)
+            process.communicate(timeout=60.0)
 
         self.addCleanup(end)
         return process
@@ -122,7 +122,7 @@ class Bags(AlignerTestCase):
                                                            (disk, self.directory)))],
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
-        self.assertIn('Less than 1G of space free on disk', record('1G').communicate(timeout=20.0)[0])
+        self.assertIn('Less than 1G of space free on disk', record('1G').communicate(timeout=60.0)[0])
         recorder = record('1k')
         deadline = time.time() + 15.0
         while not self.recorded() and time.time() < deadline:
@@ -130,7 +130,7 @@ class Bags(AlignerTestCase):
         states = self.listen('state')
         self.assertEqual(self.run_to_end(states).outcome, 'time_limit', 'the trial goes on')
         self.assertEqual(states.messages[-1].tau, 3.0)
-        output = recorder.communicate(timeout=20.0)[0]
+        output = recorder.communicate(timeout=60.0)[0]
         for words in ('/trial.bag: recording ended early', ' 0 kB are free', 'rosbag reindex'):
             self.assertIn(words, output)
         part = self.path('trial.bag.active')
