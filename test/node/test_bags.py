@@ -44,7 +44,7 @@ class Bags(AlignerTestCase):
         def end():
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
-            process.communicate(timeout=30.0)
+            process.communicate(timeout=90.0)
 
         self.addCleanup(end)
         return process
@@ -91,7 +91,7 @@ class Bags(AlignerTestCase):
         self.assertTrue(states.wait_for(250), 'the trial runs')
         published = len(states.messages)
         os.kill(self.recorder(), signal.SIGKILL)
-        self.assertIn('rosbag reindex', run.communicate(timeout=30.0)[0])
+        self.assertIn('rosbag reindex', run.communicate(timeout=90.0)[0])
         part = self.path('killed.bag.active')
         self.assertFalse(os.path.exists(self.path('killed.bag')))
         with self.assertRaises(rosbag.ROSBagUnindexedException):
@@ -123,7 +123,7 @@ class Bags(AlignerTestCase):
                                                            (disk, self.directory)))],
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
-        self.assertIn('Less than 1G of space free on disk', record('1G').communicate(timeout=30.0)[0])
+        self.assertIn('Less than 1G of space free on disk', record('1G').communicate(timeout=90.0)[0])
         recorder = record('1k')
         deadline = time.time() + 15.0
         while not self.recorded() and time.time() < deadline:
@@ -131,7 +131,7 @@ class Bags(AlignerTestCase):
         states = self.listen('state')
         self.assertEqual(self.run_to_end(states).outcome, 'time_limit', 'the trial goes on')
         self.assertEqual(states.messages[-1].tau, 3.0)
-        output = recorder.communicate(timeout=30.0)[0]
+        output = recorder.communicate(timeout=90.0)[0]
         for words in ('/trial.bag: recording ended early', ' 0 kB are free', 'rosbag reindex'):
             self.assertIn(words, output)
         part = self.path('trial.bag.active')

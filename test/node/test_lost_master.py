@@ -28,7 +28,7 @@ class LostMaster(unittest.TestCase):
         self.wait_until(lambda: socket.socket().connect_ex(('localhost', self.port)) == 0, 'no master')
 
     def wait_until(self, condition, message):
-        deadline = time.time() + 15.0
+        deadline = time.time() + 40.0
         while not condition():
             self.assertLess(time.time(), deadline, message)
             time.sleep(0.1)
