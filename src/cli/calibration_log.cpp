@@ -60,19 +60,22 @@ void CalibrationLog::take_over(const std::string& fingerprint, bool resume) {
                                : ": is a file already; give another name, or --resume to go on with it"));
     if (number > 1 && !resume)
       throw UsageError("--log: " + path_ + ": has answers of this calibration already; --resume goes on with them");
-    if (number > 1) try {
-        const nlohmann::json answer = nlohmann::json::parse(line);
-        known_[{answer.at("reading"), answer.at("seed"), answer.at("number")}] = {answer.at("values"),
-                                                                                  answer_of(answer)};
-      } catch (const nlohmann::json::exception&) {
-        throw UsageError("--log: " + path_ + ": line " + std::to_string(number) + " is not one of a calibration's log");
-      }
+    if (number > 1) read_answer(line, number);
     whole += line.size() + 1;
   }
   file.close();
   if (std::filesystem::exists(path_, none) && std::filesystem::file_size(path_) > whole) {
     if (whole == 0 && !resume) throw UsageError("--log: " + path_ + ": is a file already; give another name");
     std::filesystem::resize_file(path_, whole);
+  }
+}
+
+void CalibrationLog::read_answer(const std::string& line, std::size_t number) {
+  try {
+    const nlohmann::json answer = nlohmann::json::parse(line);
+    known_[{answer.at("reading"), answer.at("seed"), answer.at("number")}] = {answer.at("values"), answer_of(answer)};
+  } catch (const nlohmann::json::exception&) {
+    throw UsageError("--log: " + path_ + ": line " + std::to_string(number) + " is not one of a calibration's log");
   }
 }
 

@@ -31,8 +31,6 @@ class CalibrationLog {
   /// Throws OutputError.
   void keep(const CalibrationPlace& place, const std::vector<double>& values, const CalibrationAnswer& answer);
 
-  std::size_t answers() const { return known_.size(); }
-
  private:
   struct Entry {
     std::vector<double> values;
@@ -40,6 +38,7 @@ class CalibrationLog {
   };
 
   void take_over(const std::string& fingerprint, bool resume);
+  void read_answer(const std::string& line, std::size_t number);
   void write(const std::string& line);
 
   std::string path_;

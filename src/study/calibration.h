@@ -91,7 +91,7 @@ struct CalibrationAnswer {
   double shortfall() const;
 };
 
-/// The how manyth set of which search.
+/// Which set of which search: the first has number 0.
 struct CalibrationPlace {
   std::size_t reading = 0, seed = 0, number = 0;
   bool operator<(const CalibrationPlace& other) const;

@@ -4,38 +4,13 @@
 
 #include <cstddef>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <vector>
 
 #include "study/calibration.h"
+#include "study/calibration_tally.h"
 #include "study/shortfall_of_sets.h"
 
 namespace vibratory_alignment {
-
-/// What all searches tell and ask. Called by all threads.
-class CalibrationTally {
- public:
-  CalibrationTally(const CalibrationOptions& options, std::size_t facts);
-
-  std::optional<CalibrationAnswer> known(const CalibrationPlace& place, const std::vector<double>& values);
-  void keep(const CalibrationPlace& place, const std::vector<double>& values, const CalibrationAnswer& answer);
-  /// An answer, new or known.
-  void count(const CalibrationAnswer& answer);
-  /// A set all of whose facts are judged.
-  void count_whole(double shortfall, std::size_t met);
-  bool go_on();
-  void end();
-  bool ended();
-  void fill(CalibrationResult& result) const;
-
- private:
-  const CalibrationOptions& options_;
-  std::mutex mutex_;
-  CalibrationProgress progress_;
-  std::vector<std::size_t> sets_that_meet_;
-  bool ended_ = false;
-};
 
 class CalibrationRun {
  public:

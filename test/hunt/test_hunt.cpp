@@ -7,6 +7,7 @@
 
 #include "../support/scenes.h"
 #include "hunt.h"
+#include "random_scene.h"
 
 namespace vibratory_alignment::hunt {
 namespace {
@@ -87,6 +88,16 @@ TEST(Judge, passes_a_sound_scene_and_refuses_one_without_start) {
   scene = test::scene_of(test::plain);
   scene.initial.x = 10.0;  // nothing can be touched from above there
   EXPECT_FALSE(judge(scene, Range::ordinary).has_start);
+}
+
+// Several contacts nearly coincide, and rounding decides how many of them hold; so do starts that differ in the last
+// digits, not every pair of them.
+TEST(Judge, tells_rounding_from_a_broken_mirror) {
+  for (const std::uint64_t seed : {62272u, 65297u, 139067u}) {
+    const Verdict verdict = judge(random_scene(seed, Range::wild), Range::wild);
+    EXPECT_TRUE(verdict.faults.empty()) << seed;
+    EXPECT_TRUE(verdict.sensitive) << seed;
+  }
 }
 
 }  // namespace

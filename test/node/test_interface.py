@@ -55,11 +55,12 @@ class Interface(AlignerTestCase):
         self.assertEqual(len(rows), len(self.tables[heading]), 'a row twice')
         return rows
 
+    def check_types(self, heading, column, types):
+        rows = self.documented(heading, column)
+        self.assertEqual({name: row['type'] for name, row in rows.items()}, types)
+
     def test_published_topics(self):
-        rows = self.documented('Topics that are published', 'topic')
-        self.assertEqual(set(rows), self.published)
-        for topic, row in rows.items():
-            self.assertEqual(row['type'], self.types[topic], topic)
+        self.check_types('Topics that are published', 'topic', {name: self.types[name] for name in self.published})
 
     def test_frames_of_published_topics(self):
         rows = self.documented('Topics that are published', 'topic')
@@ -74,16 +75,10 @@ class Interface(AlignerTestCase):
             self.assertEqual(message.header.frame_id, frame, topic)
 
     def test_topics_that_are_read(self):
-        rows = self.documented('Topics that are read', 'topic')
-        self.assertEqual(set(rows), self.subscribed)
-        for topic, row in rows.items():
-            self.assertEqual(row['type'], self.types[topic], topic)
+        self.check_types('Topics that are read', 'topic', {name: self.types[name] for name in self.subscribed})
 
     def test_services(self):
-        rows = self.documented('Services', 'service')
-        self.assertEqual(set(rows), self.services)
-        for service, row in rows.items():
-            self.assertEqual(row['type'], rosservice.get_service_type(service), service)
+        self.check_types('Services', 'service', {name: rosservice.get_service_type(name) for name in self.services})
 
     def test_settings(self):
         descriptions = Listener('/aligner/parameter_descriptions', ConfigDescription)
