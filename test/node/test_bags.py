@@ -111,7 +111,6 @@ class Bags(AlignerTestCase):
         inside = ['unshare'] + ([] if os.getuid() == 0 else ['--map-root-user']) + ['--mount', 'sh', '-c']
         disk = self.path('disk')
         os.mkdir(disk)
-        # less than half of what is recorded, whatever the pace
         mount = 'mount -t tmpfs -o size=160k tmpfs ' + disk
         tried = subprocess.run(inside + [mount], stderr=subprocess.PIPE, universal_newlines=True)
         if tried.returncode != 0:
@@ -129,8 +128,13 @@ class Bags(AlignerTestCase):
         while not self.recorded() and time.time() < deadline:
             time.sleep(0.1)
         states = self.listen('state')
-        self.assertEqual(self.run_to_end(states).outcome, 'time_limit', 'the trial goes on')
-        self.assertEqual(states.messages[-1].tau, 3.0)
+        # on a busy machine the recorder misses much of a trial: the disk is full after another
+        deadline = time.time() + 60.0
+        runs = 0
+        while runs == 0 or recorder.poll() is None and time.time() < deadline:
+            self.assertEqual(self.run_to_end(states).outcome, 'time_limit', 'the trial goes on')
+            self.assertEqual(states.messages[-1].tau, 3.0)
+            runs += 1
         output = recorder.communicate(timeout=90.0)[0]
         for words in ('/trial.bag: recording ended early', ' 0 kB are free', 'rosbag reindex'):
             self.assertIn(words, output)
