@@ -281,7 +281,7 @@ double EventSolver::expand_contact(const DriveForms& drives) {
   series_.expand_contact(state_, drives, contact_order_, segment_);
   // rates so high that their powers overflow
   if (!(last_terms(segment_) < kNearOverflow)) series_.expand_contact(state_, drives, kLowOrder, segment_);
-  return std::min({series_step(segment_, system_.friction, tolerance_), tanh_layer_step(),
+  return std::min({series_step(system_, segment_, tolerance_), tanh_layer_step(),
                    layer_force_step(segment_, system_.friction, force_tolerance_)});
 }
 
@@ -411,7 +411,7 @@ const Segment& EventSolver::advance(double limit) {
       const bool corrects = flight_.exact() && !system_.recovery;
       point_tolerance = corrects ? search_tolerance_ : kFlightTolerance;
       series_.expand_free(state_, drives, corrects ? search_order_ : kFlightOrder, segment_);
-      step = series_step(segment_, system_.friction, point_tolerance);
+      step = series_step(system_, segment_, point_tolerance);
     }
     if (!is_finite(segment_)) fail("the motion is no longer finite");
     // the series of the points turn with the part; those of the other edge and the corners follow from these

@@ -113,7 +113,7 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
   judgement.excess = 0.0;
   probe_.contacts = judgement.mode.contacts;
   series_.expand_contact(hold_sticking(system_, state, probe_.contacts), drives, kOrder, probe_);
-  double h = std::min({1.0, series_step(probe_, system_.friction, kProbeTolerance),
+  double h = std::min({1.0, series_step(system_, probe_, kProbeTolerance),
                        pair_step(series_.direction(probe_), kOrder, kProbeTolerance)});
   SeriesNoise noise = series_noise(system_, probe_, h, allowance);
   if (!(h > 0.0) || !noise.is_finite()) {

@@ -12,6 +12,9 @@ namespace {
 constexpr int kLeadingTerms = 4;
 /// Of a velocity: slower is at rest. To become as fast as anything that matters it would have to grow 138 times e-fold.
 constexpr double kRest = 1e-60;
+/// Of a velocity, beside what the part's speed and the forces of the contacts would make it: forces that hold an axis
+/// leave it less than this of their rounding.
+constexpr double kHeld = 1e-20;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Base-2 logarithm of a normal positive number, good to 0.1: exponent and leading digits, read off its bits.
@@ -46,23 +49,52 @@ bool has_law(const Segment& segment, const ContactSeries& contact, Slip slip) {
   return segment.contacts[static_cast<std::size_t>(contact.site)].slip == slip;
 }
 
+/// The axes' velocities, beside which what a single one does may be no more than rounding.
+struct Speeds {
+  explicit Speeds(const Segment& s) : segment(s), present(std::abs(s.vx[0]) + std::abs(s.vy[0]) + std::abs(s.omega[0])) {}
+
+  /// True when contacts hold the axis: what its velocity's term of power k has, is not more than rounding of the forces
+  /// that cancel in it. `easiness`: acceleration for a force of one at the far end of the part.
+  bool hold_term(const Series& v, int k, double easiness) const {
+    if (k == 0) return std::abs(v[0]) <= kHeld * present;
+    double forces = 0.0;
+    for (int i = 0; i < segment.loaded_count; ++i)
+      forces += std::abs(segment.loaded[i].normal_force[k - 1]) + std::abs(segment.loaded[i].tangential_force[k - 1]);
+    return std::abs(v[k]) * k <= kHeld * easiness * forces;
+  }
+
+  bool hold(const Series& v, double easiness) const {
+    for (int k = 0; k < kLeadingTerms; ++k)
+      if (!hold_term(v, k, easiness)) return false;
+    return hold_term(v, segment.order - 1, easiness) && hold_term(v, segment.order, easiness);
+  }
+
+  const Segment& segment;
+  double present;
+};
+
 }  // namespace
 
-double series_step(const Segment& segment, double friction, double tolerance) {
+double series_step(const System& system, const Segment& segment, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
+  const Speeds speeds(segment);
+  const double reach = system.half_width + system.base_distance;
   double shortest = kInfinity;
-  for (const Series* v : {&segment.vx, &segment.vy, &segment.omega}) {
+  const auto look = [&](const Series& v, double easiness) {
     // an axis whose leading terms vanish has no scale of its own; what is at rest must not begin to move either
-    const double leading = std::max({std::abs((*v)[0]), std::abs((*v)[1]), std::abs((*v)[2]), std::abs((*v)[3])});
-    const double last = std::max(std::abs((*v)[segment.order - 1]), std::abs((*v)[segment.order]));
-    if (leading == 0.0 || std::max(leading, last) < kRest) continue;
-    shortest = std::min(shortest, log2_step(*v, segment.order, log2_tolerance));
-  }
+    const double leading = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), std::abs(v[3])});
+    const double last = std::max(std::abs(v[segment.order - 1]), std::abs(v[segment.order]));
+    if (leading == 0.0 || std::max(leading, last) < kRest || speeds.hold(v, easiness)) return;
+    shortest = std::min(shortest, log2_step(v, segment.order, log2_tolerance));
+  };
+  look(segment.vx, system.x.inverse_inertia);
+  look(segment.vy, system.y.inverse_inertia);
+  look(segment.omega, system.phi.inverse_inertia * reach);
   // a contact that holds the part at rest: all that changes is T
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     if (has_law(segment, contact, Slip::stick))
-      shortest = std::min(shortest, log2_friction_step(contact, friction, segment.order - 1, log2_tolerance));
+      shortest = std::min(shortest, log2_friction_step(contact, system.friction, segment.order - 1, log2_tolerance));
   }
   return std::exp2(shortest);
 }

@@ -1,6 +1,7 @@
 // Length of a step from the power series of the motion itself.
 #pragma once
 
+#include "mechanics/system.h"
 #include "solver/segment.h"
 
 namespace vibratory_alignment {
@@ -8,8 +9,8 @@ namespace vibratory_alignment {
 /// Longest time over which the last two terms of every velocity's series stay below `tolerance` times that velocity's
 /// largest leading term: the truncation error relative to each axis' own motion, whatever its scale.
 /// Likewise for T of sticking contacts, relative to T and to the force f N that it may reach.
-/// Infinity for what is at rest.
-double series_step(const Segment& segment, double friction, double tolerance);
+/// Infinity for what is at rest, or held by contacts: what rounding of their forces leaves has no time scale.
+double series_step(const System& system, const Segment& segment, double tolerance);
 
 /// Longest time over which the last two terms of T of every contact in the tanh layer stay below `tolerance` times T
 /// and f N: where friction hardly moves the part, its velocities do not tell how far the series of T holds. Infinity

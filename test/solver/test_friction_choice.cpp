@@ -62,7 +62,7 @@ struct Decision {
     motion.contacts = mode.contacts;
     series.expand_contact(state, drives, kOrder, motion);
     step = std::min(
-        {1.0, series_step(motion, system.friction, 1e-15), pair_step(series.direction(motion), kOrder, 1e-15)});
+        {1.0, series_step(system, motion, 1e-15), pair_step(series.direction(motion), kOrder, 1e-15)});
   }
 
   Slip slip(Site site) const { return mode.contacts[static_cast<std::size_t>(site)].slip; }

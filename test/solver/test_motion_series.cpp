@@ -97,7 +97,7 @@ State at_rest_along(const System& system, State q, const Touch& touch) {
 
 /// The step over which all series are cut off at 1e-15, as the solver takes it.
 double step_of(const System& system, MotionSeries& series, Segment& g) {
-  return std::min({series_step(g, system.friction, 1e-15), pair_step(series.direction(g), g.order, 1e-15), 0.5});
+  return std::min({series_step(system, g, 1e-15), pair_step(series.direction(g), g.order, 1e-15), 0.5});
 }
 
 /// Checks the segment's series against the equations of motion at times up to the step.

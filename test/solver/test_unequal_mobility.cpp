@@ -299,6 +299,23 @@ initial: {x: -2, y: 0.02, phi: 7.5e-05, vx: 0, vy: 0, omega: 0}
 trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
 solver: {name: event, tolerance: 1e-08, step_limit: 1000}
 )"},
+      {"corners_that_hold_it_at_rest", R"(
+part: {half_width: 0.7346679350884445, base_distance: 0.9499026149864909, inertia: 0.1625081163576535}
+slot: {clearance: 0.00011055215128503984}
+gripper:
+  stiffness: {x: 0, phi: 0.0006036080602230197}
+  damping: {x: 0, y: 1.682401169230176, phi: 0}
+  anchor: {x: 0, phi: 0}
+  pressing_force: 1.5498021373725366
+base: {stiffness: {x: 292.9730816302425, y: 292.9730816302425}, damping: {x: 12.916954236657103, y: 12.916954236657103}}
+contacts: [edges, corners]
+friction: {coefficient: 2.9459982861933343}
+excitation:
+  - {amplitude: -2.891677796257175, frequency: 0.1909512213300915, direction: y}
+initial: {x: 1.3461321886531175, y: -1.7063552137368323, phi: 0.13133167193625012}
+trial: {time_limit: 1, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
   };
   return all;
 }
