@@ -1,11 +1,12 @@
 // Calibration: the search for values that the paper leaves out, such that a trial of its figures shows what it says.
 //
 // A set is a value for every parameter. Its settings go into the studies that the facts are measured on; its shortfall
-// is the sum of the facts' (facts.h), 0 when all are met. Every reading of the paper is searched, with several seeds
-// each: first all ranges at once, by a controlled random search (NLopt's CRS2 with local mutation). The searches with
-// the best sets go on, in rounds that look around the best set so far, nearer and nearer and on fuller studies. A round
-// takes the values of all studies first, then for each figure its own: those ask only for that figure's studies, which
-// is what makes a round cheap. At last a subspace simplex search (NLopt's Sbplx) over all values. What a study's
+// is the sum over the facts of s/(1 + s), s a fact's own (facts.h): 0 when all are met, less than one a fact, so that no
+// fact that is far out of reach is bought with those that are near. Every reading of the paper is searched, with several
+// seeds each: first all ranges at once, by a controlled random search (NLopt's CRS2 with local mutation). The searches
+// with the best sets go on, in rounds that look around the best set so far, nearer and nearer and on fuller studies. A
+// round takes the values of all studies first, then for each figure its own: those ask only for that figure's studies,
+// which is what makes a round cheap. At last a subspace simplex search (NLopt's Sbplx) over all values. What a study's
 // samples leave of noise is in the shortfall as well, so derivatives would be of no use. The best sets of all searches
 // are judged on the whole studies.
 #pragma once
@@ -27,7 +28,7 @@ struct CalibrationParameter {
   std::string name;
   double from = 0.0, to = 0.0;
   bool logarithmic = false;
-  double start = 0.0;  ///< in the range; the first set of every search
+  double start = 0.0;  ///< in the range; in the first set of every search, but for readings that say otherwise
 
   /// share 0 ... 1 of the range; to four digits, so that what is written down of a set is what was judged.
   double value_at(double share) const;
@@ -42,6 +43,7 @@ using CalibrationSettings = std::map<std::string, std::vector<std::pair<std::str
 struct CalibrationReading {
   std::string name;
   CalibrationSettings settings;  ///< come after those of the calibration
+  std::vector<double> start;     ///< the first set of its searches, in the order of the parameters
 };
 
 /// A look around the best set so far.

@@ -10,6 +10,10 @@ namespace {
 
 const std::vector<std::string> spacing_words = {"linear", "log"};
 
+bool has_in_range(const CalibrationParameter& parameter, double value) {
+  return value >= parameter.from && value <= parameter.to;
+}
+
 CalibrationParameter read_parameter(TreeReader reader, const std::string& name) {
   CalibrationParameter parameter;
   parameter.name = name;
@@ -19,10 +23,20 @@ CalibrationParameter read_parameter(TreeReader reader, const std::string& name) 
   parameter.to = reader.required_number("to", rule);
   if (!(parameter.from < parameter.to)) reader.fault("to", "must be above `from`");
   parameter.start = reader.required_number("start", rule);
-  if (parameter.start < parameter.from || parameter.start > parameter.to)
-    reader.fault("start", "must be from `from` to `to`");
+  if (!has_in_range(parameter, parameter.start)) reader.fault("start", "must be from `from` to `to`");
   reader.refuse_unknown_keys();
   return parameter;
+}
+
+/// The first set of a reading: what it does not name starts as it does for all.
+std::vector<double> read_start(TreeReader reader, const std::vector<CalibrationParameter>& parameters) {
+  std::vector<double> start;
+  for (const CalibrationParameter& parameter : parameters) {
+    start.push_back(reader.number(parameter.name, any_number).value_or(parameter.start));
+    if (!has_in_range(parameter, start.back())) reader.fault(parameter.name, "must be from `from` to `to`");
+  }
+  reader.refuse_unknown_keys();
+  return start;
 }
 
 /// Study (or "all") -> key path -> formula.
@@ -105,6 +119,7 @@ Calibration load_calibration(const std::string& path) {
       TreeReader own = reading.section("settings");
       read.settings = read_settings(own, own.keys());
     }
+    read.start = read_start(reading.section("start"), calibration.parameters);
     reading.refuse_unknown_keys();
     calibration.readings.push_back(std::move(read));
   }

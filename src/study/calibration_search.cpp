@@ -17,7 +17,7 @@ constexpr double kSimplexStep = 0.1;
 
 /// How much more than the best set of a simplex search another may fall short before it is given up: far more than a
 /// simplex of kSimplexStep spans.
-constexpr double kSimplexRoom = 4.0;
+constexpr double kSimplexRoom = 2.0;
 
 /// The sets that a random search keeps, for each value that it searches for. CRS2 asks for one more than the values at
 /// least; NLopt's own ten times as many would take all of a round to fill.
@@ -49,10 +49,9 @@ CalibrationRun::CalibrationRun(const Calibration& calibration, std::size_t readi
     : calibration_(calibration), reading_(calibration.readings[reading]), suite_(suite), tally_(tally) {
   best_.reading = reading;
   best_.seed = seed;
-  for (const CalibrationParameter& parameter : calibration.parameters) {
-    best_.values.push_back(parameter.start);
-    best_shares_.push_back(parameter.share_of(parameter.start));
-  }
+  best_.values = reading_.start;
+  for (std::size_t i = 0; i < best_.values.size(); ++i)
+    best_shares_.push_back(calibration.parameters[i].share_of(best_.values[i]));
 }
 
 void CalibrationRun::search_all_ranges() {

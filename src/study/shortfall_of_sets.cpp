@@ -89,7 +89,7 @@ CalibrationAnswer ShortfallOfSets::operator()(const std::vector<double>& values,
   for (const std::size_t part : group.parts) {
     CalibrationAnswer::Part judged;
     for (const FactResult& result : evaluate_facts(parts_[part].suite, options)) {
-      judged.shortfall += result.shortfall;
+      judged.shortfall += result.shortfall / (1.0 + result.shortfall);
       judged.met += result.met ? 1 : 0;
     }
     answer.parts.push_back(judged);

@@ -53,7 +53,7 @@ settings:
   all: {base.stiffness.y: C1}
 readings:
   - {name: as it is}
-  - {name: heavier, settings: {blow: {weight: 0.05 * 2}}}
+  - {name: heavier, settings: {blow: {weight: 0.05 * 2}}, start: {C1: 700}}
 search:
   searches: 2
   population: 8
@@ -125,6 +125,22 @@ TEST(Calibration, takes_out_keys_without_a_formula) {
   EXPECT_EQ(settings.of_study.at("blow"), (std::vector<std::string>{"friction.coefficient=null"}));
 }
 
+TEST(Calibration, starts_where_a_reading_says) {
+  const Calibration calibration = load_calibration(CalibrationFiles().path());
+  EXPECT_EQ(calibration.readings[0].start, (std::vector<double>{500.0}));
+  EXPECT_EQ(calibration.readings[1].start, (std::vector<double>{700.0}));
+}
+
+/// With C1 = 1e6 the force is 2000, 18 scales above its bound: that fact falls short by 2 - 1/18, the other by nothing.
+TEST(Calibration, counts_a_fact_that_is_far_off_less_than_once) {
+  const CalibrationFiles files;
+  const Calibration calibration = load_calibration(files.path());
+  const FactSuite suite = load_fact_suite(calibration.facts_file, [](const std::string& name) { return name; });
+  const ShortfallOfSets shortfall(calibration, calibration.readings[0], suite, {1, 1});
+  const CalibrationAnswer answer = shortfall({1e6}, shortfall.all(), INFINITY, [] { return true; });
+  EXPECT_NEAR(answer.shortfall(), (2.0 - 1.0 / 18.0) / (3.0 - 1.0 / 18.0), 1e-4);
+}
+
 TEST(CalibrationParameter, covers_its_range) {
   const CalibrationParameter log{"k", 10.0, 1000.0, true, 100.0}, linear{"f", 1.0, 3.0, false, 2.0};
   EXPECT_NEAR(log.value_at(0.5), 100.0, 1e-12);
@@ -183,6 +199,8 @@ TEST(CalibrationFile, names_what_is_wrong) {
       says(refusal("population: 8", "population: 1"), "search.population: 1: must be more than the parameters, 1"));
   EXPECT_TRUE(says(refusal("readings:", "reading:"), "reading"));
   EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.settings.blew: must be `all` or a study of"));
+  EXPECT_TRUE(says(refusal("start: {C1: 700}", "start: {C1: 5}"), "readings.1.start.C1: 5: must be from `from` to `to`"));
+  EXPECT_TRUE(says(refusal("start: {C1: 700}", "start: {C2: 700}"), "readings.1.start.C2"));
   EXPECT_TRUE(says(refusal("finalists: 2", "finalists: 2\n  leave_out: [Q]"), "search.leave_out: Q: must be the id"));
 }
 
