@@ -7,7 +7,6 @@
 
 #include <ros/callback_queue.h>
 #include <std_msgs/UInt32.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include "model/scene_loader.h"
 #include "node/scene_service.h"
@@ -18,6 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPublishingTurn(20);   ///< then callbacks get theirs
 constexpr std::chrono::milliseconds kPictureInterval(33);  ///< of wall time between two ~markers
+constexpr std::chrono::seconds kPoseInterval(1);           ///< of wall time between two poses of a part at rest
 constexpr std::chrono::milliseconds kLongestLag(500);      ///< behind the wall clock, then the pace starts anew
 constexpr std::chrono::seconds kSubscriberPatience(30);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
@@ -43,6 +43,7 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
       first_interval_(stage_->interval),
       first_time_unit_(stage_->seconds(1.0)),
       stamps_(ros::Time::isSimTime() ? ros::Duration() : kWallClockCorrection),
+      samples_(private_handle, frames_),
       diagnostics_(private_handle),
       settings_server_(settings_mutex_, private_handle),
       align_server_(
@@ -66,17 +67,8 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   master_watch_.emplace(std::move(services));
 }
 
-template <class Message>
-SampleTopic Aligner::advertise_samples(const std::string& name) {
-  return SampleTopic(publishers_[name] = handle_.advertise<Message>(name, kQueueSize));
-}
-
 void Aligner::advertise() {
-  transforms_ = SampleTopic(ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", kQueueSize));
-  state_ = advertise_samples<AlignerState>("state");
-  reaction_a1_ = advertise_samples<geometry_msgs::WrenchStamped>("reaction/a1");
-  reaction_a2_ = advertise_samples<geometry_msgs::WrenchStamped>("reaction/a2");
-  contacts_ = advertise_samples<AlignerContacts>("contacts");
+  publishers_ = samples_.publishers();
   publishers_["markers"] = handle_.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, true);
   publishers_["result"] = handle_.advertise<AlignerResult>("result", 1, true);
   services_ = {handle_.advertiseService("start", &Aligner::on_start, this),
@@ -96,6 +88,7 @@ void Aligner::publish_static_transforms() {
 
 void Aligner::set_activity(Activity activity) {
   activity_ = activity;
+  next_pose_ = Clock::now() + kPoseInterval;
   pace_meter_.set_running(activity == Activity::running, Clock::now());
 }
 
@@ -117,6 +110,7 @@ void Aligner::run_until(const std::function<bool()>& interrupted) {
   while (ros::ok() && !interrupted()) {
     if (activity_ == Activity::waiting) wait_for_subscribers();
     if (activity_ == Activity::running) publish_due_samples();
+    if (activity_ == Activity::paused || activity_ == Activity::ended) tend_standstill();
     if (align_server_.active() && Clock::now() >= align_server_.feedback_due()) {
       align_server_.give_feedback(stage_->messages, activity_ != Activity::running);
     }
@@ -150,6 +144,21 @@ void Aligner::wait_for_subscribers() {
   next_picture_ = {};
   publish_next();
   if (parameters_.autostart && activity_ == Activity::paused) run();
+}
+
+/// For those who have joined; for those who ask where the part is now; and for those whose buffers are empty because
+/// somebody has set ROS time back.
+void Aligner::tend_standstill() {
+  if (!samples_.has_last()) return;
+  const bool joined = samples_.serve_newcomers(stage_->messages);
+  const ros::Time now = ros::Time::now();
+  const bool set_back = !sim_clock_ && stamps_.set_back(now);
+  const bool passed = !sim_clock_ && now > stamps_.last() && Clock::now() >= next_pose_;
+  if (!joined && !set_back && !passed) return;
+  next_pose_ = Clock::now() + kPoseInterval;
+  const ros::Time stamp = next_stamp();
+  samples_.repeat_transform(stage_->messages, stamp);
+  if (set_back) publish_markers(stamp);
 }
 
 void Aligner::run() {
@@ -195,16 +204,7 @@ bool Aligner::publish_next() {
 
 void Aligner::publish(const Sample& sample) {
   const ros::Time stamp = next_stamp();
-  bool queued = transforms_.queue([&] {
-    tf2_msgs::TFMessage moving;
-    moving.transforms = {part_transform(sample.state, stage_->messages.units().length, frames_, stamp)};
-    return moving;
-  });
-  queued |= state_.queue([&] { return stage_->messages.state(sample, stamp); });
-  queued |= reaction_a1_.queue([&] { return stage_->messages.reaction(sample, Site::a1, stamp); });
-  queued |= reaction_a2_.queue([&] { return stage_->messages.reaction(sample, Site::a2, stamp); });
-  queued |= contacts_.queue([&] { return stage_->messages.contacts(sample, stamp); });
-  if (queued) send_queued_messages();
+  samples_.publish(stage_->messages, sample, stamp);
   stage_->markers.add(sample);
   align_server_.add(sample);
   if (Clock::now() >= next_picture_) publish_markers(stamp);

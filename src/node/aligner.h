@@ -27,14 +27,12 @@
 #include "node/node_parameters.h"
 #include "node/pace_meter.h"
 #include "node/pacer.h"
-#include "node/sample_topic.h"
+#include "node/sample_topics.h"
 #include "node/sim_clock.h"
 #include "node/stage.h"
 #include "node/stamps.h"
 
 namespace vibratory_alignment {
-
-constexpr std::uint32_t kQueueSize = 1000;  ///< messages kept for a slow subscriber
 
 /// Says that a scene without scales has no SI units.
 void warn_without_scales(const Scene& scene);
@@ -55,8 +53,6 @@ class Aligner {
 
   void advertise();
   void run_until(const std::function<bool()>& interrupted);
-  template <class Message>
-  SampleTopic advertise_samples(const std::string& name);
   bool on_start(Trigger::Request&, Trigger::Response& response);
   bool on_pause(Trigger::Request&, Trigger::Response& response);
   bool on_step(Trigger::Request&, Trigger::Response& response);
@@ -68,7 +64,9 @@ class Aligner {
   void on_cancel();
 
   void change_stage(std::unique_ptr<Stage> next, bool other_scene);
+  void set_clock_back();
   void show_start();
+  void tend_standstill();
   void set_activity(Activity activity);
   void wait_for_subscribers();
   void run();
@@ -96,16 +94,16 @@ class Aligner {
   Pacer pacer_;
   PaceMeter pace_meter_;
   Activity activity_ = Activity::waiting;
-  Clock::time_point waiting_since_, all_subscribed_at_, next_picture_, ended_at_;
+  Clock::time_point waiting_since_, all_subscribed_at_, next_picture_, next_pose_, ended_at_;
   bool all_subscribed_ = false;
   std::optional<SimClock> sim_clock_;
   Stamps stamps_;
   std::uint32_t restarts_ = 0;
 
+  SampleTopics samples_;
   std::map<std::string, ros::Publisher> publishers_;  ///< by the names in topic_names()
   ros::Publisher restart_publisher_;
   std::vector<ros::ServiceServer> services_;
-  SampleTopic transforms_, state_, reaction_a1_, reaction_a2_, contacts_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   Diagnostics diagnostics_;
   boost::recursive_mutex settings_mutex_;

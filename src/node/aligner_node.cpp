@@ -1,5 +1,7 @@
 // aligner_node: one alignment trial as a ROS node. docs/node.md lists its parameters, topics, services and settings.
-// SIGINT and SIGTERM end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene, bad parameters).
+// SIGINT, SIGTERM and `rosnode kill` end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene,
+// bad parameters).
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -7,6 +9,7 @@
 #include <string>
 
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 
 #include "node/aligner.h"
 #include "node/node_parameters.h"
@@ -14,9 +17,16 @@
 
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
-extern "C" void on_signal(int) { interrupted = 1; }
+extern "C" void on_signal(int) { interrupted = true; }
+
+/// `rosnode kill`, or another node that takes this one's name.
+void on_shutdown_request(XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& answer) {
+  interrupted = true;
+  answer = ros::xmlrpc::responseInt(1, "", 0);
+}
 
 /// One log entry a line: a scene may have many faults.
 int fail(const std::string& message) {
@@ -33,10 +43,13 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   const ros::NodeHandle private_handle("~");
+  // roscpp's own answer would shut ROS down before a goal can be ended
+  ros::XMLRPCManager::instance()->unbind("shutdown");
+  ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown_request);
   try {
     const Scene scene = scene_from_params(private_handle);
     Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene));
-    aligner.spin([] { return interrupted != 0; });
+    aligner.spin([] { return interrupted.load(); });
   } catch (const std::exception& error) {
     return fail(error.what());
   }

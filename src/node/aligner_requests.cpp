@@ -98,7 +98,8 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
     parameters_.autostart = false;
   }
   announce_restart();
-  if (sim_clock_) sim_clock_->set_back();
+  if (sim_clock_) set_clock_back();
+  samples_.forget_last();
   if (activity_ != Activity::waiting) {
     publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
     show_start();
@@ -106,6 +107,15 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
   response.success = true;
   response.message = "paused at the start";
   return true;
+}
+
+/// A listener of tf2 clears its buffer when it gets a transform and finds the clock behind where it was at the
+/// transform before, which it may have got ahead of the clock's last step: so it gets one more, with the clock
+/// standing.
+void Aligner::set_clock_back() {
+  if (samples_.has_last()) samples_.repeat_transform(stage_->messages, stamps_.one_more());
+  SimClock::let_arrive();
+  sim_clock_->set_back();
 }
 
 void Aligner::show_start() {
@@ -123,7 +133,8 @@ std::string Aligner::change_scene(const Scene& scene) {
     parameters.time_scale = usual_time_scale(scene);
     interval = sample_interval(parameters, scene);
   }
-  auto next = std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_, interval);
+  auto next =
+      std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_, interval);
   if (align_server_.active()) {
     align_server_.abort(stage_->messages, stage_->trial.result(), "another scene was loaded");
     parameters_.autostart = false;
@@ -139,6 +150,7 @@ void Aligner::change_stage(std::unique_ptr<Stage> next, bool other_scene) {
   if (other_scene) warn_without_scales(next->scene);
   publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
   stage_ = std::move(next);
+  samples_.forget_last();
   announce_restart();
   if (sim_clock_) sim_clock_->begin_trial();
   if (other_scene) publish_static_transforms();

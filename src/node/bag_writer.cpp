@@ -10,6 +10,7 @@
 
 #include <dynamic_reconfigure/Config.h>
 #include <rosbag/bag.h>
+#include <std_msgs/UInt32.h>
 #include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
 
@@ -22,7 +23,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kTimeScale = 1.0;  ///< as the settings tell it: a stamp is simulated time
+constexpr double kTimeScale = 1.0;    ///< as the settings tell it: a stamp is simulated time
 constexpr double kPictures = 1000.0;  ///< markers are written at most this often in trial.time_limit
 
 /// Peaks and impulses of `earlier`, to which no message was given, go into `later`.
@@ -132,6 +133,7 @@ class BagWriter::Impl {
       tf2_msgs::TFMessage fixed;
       fixed.transforms = static_transforms(scene_, messages_.frames(), {}, stamp);
       write_latched("/tf_static", stamp, fixed);
+      write_latched(node_ + "/restarts", stamp, std_msgs::UInt32());
       dynamic_reconfigure::Config settings;
       DriveSettings(scene_, kTimeScale).config().__toMessage__(settings);
       write_latched(node_ + "/parameter_updates", stamp, settings);

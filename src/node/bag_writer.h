@@ -17,8 +17,9 @@ struct BagOptions {
 };
 
 /// The bag holds /tf, /tf_static, NODE/state, NODE/reaction/a1, NODE/reaction/a2, NODE/contacts, NODE/markers,
-/// NODE/parameter_updates and NODE/result. Stamps are kStartTime + simulated seconds (scenes without scales: units of time), so never 0.
-/// The file is created by the constructor and removed by the destructor unless finish() has made it whole.
+/// NODE/parameter_updates, NODE/restarts and NODE/result. Stamps are kStartTime + simulated seconds (scenes without
+/// scales: units of time), so never 0. The file is created by the constructor and removed by the destructor unless
+/// finish() has made it whole.
 class BagWriter {
  public:
   static constexpr double kStartTime = 1.0;  ///< stamp of the trial's start [s]

@@ -55,6 +55,7 @@ Messages::Messages(const Scene& scene, const Frames& frames)
     : scene_name_(scene.name),
       scene_units_(scene.units == Units::si ? "si" : "dimensionless"),
       has_scales_(scene.scales.has_value()),
+      excites_tilt_(!scene.excitations.empty() && scene.excitations.front().direction == Direction::phi),
       units_(ros_units(scene)),
       frames_(frames) {}
 
@@ -87,6 +88,7 @@ AlignerState Messages::state(const Sample& sample, const ros::Time& stamp) const
   message.scene = scene_name_;
   message.units = scene_units_;
   message.has_scales = has_scales_;
+  message.excites_tilt = excites_tilt_;
   message.length_scale = units_.length;
   message.force_scale = units_.force;
   message.time_scale = units_.time;

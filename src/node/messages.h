@@ -51,7 +51,7 @@ class Messages {
   AlignerContact contact(const Sample& sample, Spot spot) const;
 
   std::string scene_name_, scene_units_;
-  bool has_scales_;
+  bool has_scales_, excites_tilt_;
   OutputUnits units_;
   Frames frames_;
 };

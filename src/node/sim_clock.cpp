@@ -55,7 +55,9 @@ void SimClock::repeat() {
 void SimClock::set_back() {
   start_ = kStartTime;
   publish(kStartTime);
-  kArrival.sleep();
+  let_arrive();
 }
+
+void SimClock::let_arrive() { kArrival.sleep(); }
 
 }  // namespace vibratory_alignment

@@ -34,6 +34,9 @@ class SimClock {
   /// who has it first knows that the data of before are of no use any more.
   void set_back();
 
+  /// Waits until all have what has been published.
+  static void let_arrive();
+
  private:
   ros::Publisher publisher_;
   ros::Time start_, now_;

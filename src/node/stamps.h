@@ -11,8 +11,14 @@ class Stamps {
   /// nanoseconds until it has caught up. The wall clock is corrected now and then: 1 s. A simulated one never: 0.
   explicit Stamps(ros::Duration tolerance) : tolerance_(tolerance) {}
 
+  /// True: the clock has been set back to `now` since the last stamp.
+  bool set_back(const ros::Time& now) const { return !now.isZero() && now + tolerance_ < highest_; }
+
   /// A stamp for `now`, which may be 0 while there is no clock.
   ros::Time next(const ros::Time& now);
+
+  /// A stamp for the same reading of the clock as the last one.
+  ros::Time one_more();
 
   /// 0 before the first.
   const ros::Time& last() const { return last_; }

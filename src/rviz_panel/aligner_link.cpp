@@ -129,8 +129,10 @@ void AlignerLink::drop_hanging_call() {
 
 void AlignerLink::on_state(const AlignerState& state) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (status_.state && state.header.stamp == status_.state->header.stamp) return;  // the last one, for a newcomer
   if (status_.result && state.header.stamp > status_.result->header.stamp) status_.result.reset();
   if (status_.state && state.tau <= status_.state->tau) {
+    status_.result.reset();  // the stamps may have been set back, too
     samples_.clear();
     last_arrival_ = {};
   }

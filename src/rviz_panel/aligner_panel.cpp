@@ -298,7 +298,12 @@ void AlignerPanel::show_settings(const AlignerLink::Status& status) {
   SettingUnits units;
   if (status.state) {
     const AlignerState& state = *status.state;
-    units = {state.units == "si", state.has_scales != 0, state.force_scale, state.time_scale};
+    units.si = state.units == "si";
+    units.turns = state.excites_tilt != 0;
+    units.has_scales = state.has_scales != 0;
+    units.force = state.force_scale;
+    units.length = state.length_scale;
+    units.time = state.time_scale;
   }
   settings_->show_settings(*status.settings, units);
 }

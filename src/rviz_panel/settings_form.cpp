@@ -79,7 +79,9 @@ QString SettingsForm::unit_of(const Number& number, const SettingUnits& units) c
   if (number.setting == "phase") return " rad";
   if (number.setting == "time_scale") return {};
   if (number.setting == "frequency") return units.si ? " Hz" : "";
-  return units.si ? " N" : QString::fromUtf8(" F\u2081");
+  const bool moment = number.setting == "amplitude" && units.turns;
+  if (units.si) return moment ? " N m" : " N";
+  return QString::fromUtf8(moment ? " F\u2081L" : " F\u2081");
 }
 
 QString SettingsForm::note_of(const Number& number, double value, const SettingUnits& units) const {
@@ -93,6 +95,9 @@ QString SettingsForm::note_of(const Number& number, double value, const SettingU
   if (units.si || !units.has_scales) return {};
   if (number.setting == "frequency") {
     return QString("%1 Hz").arg(value / (2.0 * M_PI * units.time), 0, 'g', 4);
+  }
+  if (number.setting == "amplitude" && units.turns) {
+    return QString::fromStdString(quantity_text(value * units.force * units.length, "N m", true));
   }
   return QString::fromStdString(quantity_text(value * units.force, "N", true));
 }

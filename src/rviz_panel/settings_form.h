@@ -19,9 +19,11 @@ namespace vibratory_alignment {
 
 /// What the numbers of the settings mean.
 struct SettingUnits {
-  bool si = false;          ///< N and Hz; else F1 and radians per dimensionless time
+  bool si = false;          ///< N, N m and Hz; else F1, F1 L and radians per dimensionless time
+  bool turns = false;       ///< the amplitude is that of a moment
   bool has_scales = false;  ///< of a dimensionless scene: the SI values are known
   double force = 1.0;       ///< 1 dimensionless force [N]
+  double length = 1.0;      ///< 1 dimensionless length [m]
   double time = 1.0;        ///< 1 dimensionless time [s]
 };
 

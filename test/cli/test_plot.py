@@ -1,5 +1,6 @@
 """`align plot`: pictures of CSV files and bags, and what it refuses."""
 
+import csv
 import os
 import struct
 import unittest
@@ -21,25 +22,61 @@ class PlotTest(AlignTestCase):
         process = self.align("plot", *arguments, **options)
         self.assertEqual((process.returncode, process.stderr, process.stdout), (0, "", ""))
 
-    def curves(self, path):
-        """Of each curve of an SVG file the number of its points; comments hold the words."""
-        counts = []
+    def paths(self, path):
+        """The curves of an SVG file; comments hold the words."""
         for group in xml.etree.ElementTree.parse(path).iter("{http://www.w3.org/2000/svg}path"):
             clipped = "clip-path" in group.attrib and "stroke: #b0b0b0" not in group.get("style", "")
             if clipped and ("#0072b2" in group.get("style", "") or "#d55e00" in group.get("style", "")):
-                counts.append(group.get("d").count("L") + 1)
-        return counts
+                yield group
+
+    def tops(self, path):
+        """Where each curve of an SVG file is highest, from 0 at its left end to 1; None for a level one."""
+        found = []
+        for group in self.paths(path):
+            numbers = [float(word) for word in group.get("d").split() if word not in "MLz"]
+            across, down = numbers[::2], numbers[1::2]
+            top = across[down.index(min(down))]
+            level = max(down) - min(down) < 1e-6
+            found.append(None if level else (top - across[0]) / (across[-1] - across[0]))
+        return found
+
+    def rows_of_csv(self):
+        with open(self.csv) as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def rows_of_bag(self):
+        import rosbag
+
+        rows = []
+        with rosbag.Bag(self.bag) as bag:
+            for _, state, _ in bag.read_messages(topics=["/aligner/state"]):
+                row = {key: getattr(state.dimensionless, key) for key in ("x", "y", "vx", "vy", "phi")}
+                rows.append(dict(row, t=state.tau, n1=state.peak_force[state.A1], n2=state.peak_force[state.A2]))
+        return rows
+
+    def assert_curves(self, picture, rows):
+        """Each curve is that of its column."""
+        tops = self.tops(picture)
+        self.assertEqual(len(tops), 7, "x, y, vx, vy, phi, n1, n2")
+        for top, column in zip(tops, ("x", "y", "vx", "vy", "phi", "n1", "n2")):
+            values = [row[column] for row in rows]
+            self.assertEqual(top is None, max(values) == min(values), column)
+            if top is not None:
+                instant = rows[values.index(max(values))]["t"] / rows[-1]["t"]
+                self.assertAlmostEqual(top, instant, delta=1e-3, msg=column)
+        self.assertNotEqual(tops[-1], tops[-2], "the two edges are told apart")
 
     def test_draws_the_six_panels_of_a_csv_file_and_a_bag(self):
         texts = []
-        for trial in (self.csv, self.csv, self.bag):
+        rows_of_csv = self.rows_of_csv()
+        for trial, rows in ((self.csv, rows_of_csv), (self.csv, rows_of_csv), (self.bag, self.rows_of_bag())):
             picture = self.path("run.svg")
             self.plot(trial, picture, "--title", "A trial of mine")
             with open(picture) as file:
                 texts.append(file.read())
             for words in ["A trial of mine"] + PANELS:
                 self.assertIn("<!-- %s -->" % words, texts[-1])
-            self.assertEqual(len(self.curves(picture)), 7, "x, y, vx, vy, phi, n1, n2")
+            self.assert_curves(picture, rows)
         self.assertEqual(texts[0], texts[1], "the same trial gives the same picture")
 
     def test_the_ending_decides_on_the_format(self):

@@ -1,15 +1,21 @@
 """What the rostests of the node share: messages as they come, services, and `align trial` for comparison."""
 
 import csv
+import io
 import os
+import socket
+import struct
 import subprocess
 import tempfile
 import threading
 import time
 import unittest
+from xmlrpc.client import ServerProxy
 
+import rosgraph
 import rospy
 from geometry_msgs.msg import WrenchStamped
+from rosgraph.network import read_ros_handshake_header, write_ros_handshake_header
 from roslib.packages import find_node
 from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
@@ -57,6 +63,41 @@ class Listener:
 
     def wait_for(self, count, timeout=15.0):
         return self.wait(lambda messages: len(messages) >= count, timeout)
+
+
+class Newcomer:
+    """A subscriber with a connection of its own; rospy has one for all subscribers of a process."""
+
+    def __init__(self, topic, kind):
+        uri = rosgraph.Master('/newcomer').lookupNode('/aligner')
+        _, _, (_, host, port) = ServerProxy(uri).requestTopic('/newcomer', topic, [['TCPROS']])
+        self._socket = socket.create_connection((host, port))
+        self._kind = kind
+        write_ros_handshake_header(self._socket, {'callerid': '/newcomer', 'topic': topic, 'type': kind._type,
+                                                  'md5sum': kind._md5sum})
+        received = io.BytesIO()
+        read_ros_handshake_header(self._socket, received, 65536)
+        self._received = received.getvalue()  # beyond the header
+
+    def _read(self, size):
+        while len(self._received) < size:
+            part = self._socket.recv(65536)
+            if not part:
+                raise ConnectionError('the node has closed the connection')
+            self._received += part
+        data, self._received = self._received[:size], self._received[size:]
+        return data
+
+    def next(self, timeout=2.0):
+        """The next message; None: there is none in time."""
+        self._socket.settimeout(timeout)
+        try:
+            return self._kind().deserialize(self._read(*struct.unpack('<I', self._read(4))))
+        except socket.timeout:
+            return None
+
+    def close(self):
+        self._socket.close()
 
 
 class AlignerTestCase(unittest.TestCase):

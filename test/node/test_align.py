@@ -2,19 +2,24 @@
 """The action ~align."""
 import json
 import math
+import os
 import tempfile
 import time
 
 import actionlib
 import dynamic_reconfigure.client
 import rospy
+import rospkg
 import rostest
+import yaml
 from actionlib_msgs.msg import GoalStatus
 
 from aligner_test_case import AlignerTestCase, align, scene_path
 from vibratory_alignment.msg import AlignAction, AlignGoal, AlignResult
+from vibratory_alignment.srv import LoadScene
 
 TIME_UNIT, FORCE_UNIT = 5e-3, 8.0  # of small.yaml [s], [N]
+PACKAGE = rospkg.RosPack().get_path('vibratory_alignment')
 DONE = (GoalStatus.REJECTED, GoalStatus.PREEMPTED, GoalStatus.ABORTED, GoalStatus.SUCCEEDED, GoalStatus.RECALLED)
 
 
@@ -238,6 +243,30 @@ class Align(AlignerTestCase):
         time.sleep(0.3)
         self.assertEqual(self.states.messages[-1].tau, 0.0)
         self.assertEqual(self.run_to_end(self.states).tau, 2.0, 'the trial is still that of the goal')
+
+    def load_scene(self, scene):
+        return rospy.ServiceProxy('/aligner/load_scene', LoadScene)(scene)
+
+    def test_another_scene_ends_the_goal_and_one_that_is_refused_does_not(self):
+        self.client.send(scene=scene_path('small'))
+        self.assertTrue(self.client.running())
+        response = self.load_scene('no_such_scene')
+        self.assertFalse(response.success)
+        self.assertIn('no_such_scene', response.message)
+        self.assertEqual(self.client.get_state(), GoalStatus.ACTIVE)
+        reached = self.states.messages[-1].tau
+        self.assertTrue(self.states.wait(lambda states: states[-1].tau > reached), 'the trial goes on')
+
+        self.assertTrue(self.load_scene('fig3').success)
+        state, result = self.client.done()
+        self.assertEqual((state, result.outcome), (GoalStatus.ABORTED, 'running'))
+        self.assertIn('another scene', self.client.get_goal_status_text())
+        self.assertTrue(self.states.wait(lambda states: states[-1].scene == 'fig3'))
+        time.sleep(0.2)
+        self.assertEqual(self.states.messages[-1].tau, 0.0, 'it waits at the start')
+        with open(os.path.join(PACKAGE, 'config', 'scenes', 'fig3.yaml')) as file:
+            press = yaml.safe_load(file)['gripper']['pressing_force']
+        self.assertEqual(self.settings.get_configuration()['pressing_force'], press, 'with its own settings')
 
     def test_setting_enters_the_running_goal(self):
         self.client.send(scene=scene_path('small'), set_excitation=True, amplitude=0.0, frequency=20.0)

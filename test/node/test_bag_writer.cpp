@@ -78,6 +78,7 @@ TEST_F(BagWriterTest, HasTheTopicsOfTheNodeInOrderOfTime) {
   }
   EXPECT_EQ(messages["/tf_static"], 1U);
   EXPECT_EQ(messages["/aligner/parameter_updates"], 1U);
+  EXPECT_EQ(messages["/aligner/restarts"], 1U);
   EXPECT_EQ(messages["/aligner/result"], 1U);
   EXPECT_GT(messages["/aligner/markers"], 1U);
 }
@@ -99,6 +100,7 @@ TEST_F(BagWriterTest, LatchedTopicsAreMarkedAsSuch) {
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     const bool latched = connection->header->count("latching") != 0 && connection->header->at("latching") == "1";
     const bool expected = connection->topic == "/tf_static" || connection->topic == "/aligner/result" ||
+                          connection->topic == "/aligner/restarts" ||
                           connection->topic == "/aligner/parameter_updates" || connection->topic == "/aligner/markers";
     EXPECT_EQ(latched, expected) << connection->topic;
   }

@@ -10,7 +10,7 @@ import tf2_ros
 from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
 
-from aligner_test_case import AlignerTestCase, Listener, program, scene_path
+from aligner_test_case import AlignerTestCase, Listener, Newcomer, program, scene_path
 from vibratory_alignment.msg import AlignAction, AlignGoal
 
 START = rospy.Time(1)  # where the clock begins
@@ -57,6 +57,23 @@ class OwnClock(AlignerTestCase):
         self.assertTrue(self.clock.wait(lambda messages: messages[-1].clock > before + rospy.Duration(39.5 * INTERVAL)))
         time.sleep(0.3)
         self.assertAlmostEqual((self.clock.messages[-1].clock - before).to_sec(), 40 * INTERVAL, delta=1e-7)
+
+    def test_who_joins_tf_while_it_stands_finds_the_part(self):
+        self.clock.forget(1)
+        self.step_by(samples=5)
+        self.assertTrue(self.states.wait_for(6))
+        last = self.states.messages[-1]
+        stamps = [last.header.stamp]
+        for _ in range(2):
+            newcomer = Newcomer('/tf', TFMessage)
+            self.addCleanup(newcomer.close)
+            part = newcomer.next().transforms[0]
+            self.assertEqual((part.child_frame_id, part.transform.translation.x), ('part', last.si.x))
+            stamps.append(part.header.stamp)
+        self.assertIsNone(newcomer.next(1.2), 'time stands: there is nothing to add')
+        self.assertEqual(len(set(stamps)), 3, 'a stamp was published twice')
+        self.assert_never_zero_nor_back(self.instants())
+        self.assertLess(self.instants()[-1] - last.header.stamp, rospy.Duration(0, 10), 'it stands')
 
     def test_reset_is_announced_and_a_tf_buffer_survives_it(self):
         restarts = self.listen('restarts')

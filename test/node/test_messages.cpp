@@ -66,6 +66,15 @@ TEST_F(MessagesTest, StateIsGivenDimensionlessAndInSi) {
   EXPECT_DOUBLE_EQ(state.force_scale, kForce);
 }
 
+TEST_F(MessagesTest, TellsWhetherTheFirstExcitationActsOnTheTilt) {
+  Scene scene = small_scene::load();
+  EXPECT_FALSE(Messages(scene, Frames()).state(Sample(), kStamp).excites_tilt);
+  scene.excitations.front().direction = Direction::phi;
+  EXPECT_TRUE(Messages(scene, Frames()).state(Sample(), kStamp).excites_tilt);
+  scene.excitations.clear();
+  EXPECT_FALSE(Messages(scene, Frames()).state(Sample(), kStamp).excites_tilt);
+}
+
 TEST_F(MessagesTest, PeaksAndImpulsesAreGivenPerSpot) {
   Sample sample;
   at(sample, Site::a2) = pushed(0.0, 3.0, -0.79, 0.0);

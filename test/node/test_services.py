@@ -3,8 +3,11 @@
 import time
 
 import rostest
+from geometry_msgs.msg import WrenchStamped
+from tf2_msgs.msg import TFMessage
 
-from aligner_test_case import AlignerTestCase
+from aligner_test_case import AlignerTestCase, Newcomer
+from vibratory_alignment.msg import AlignerContacts, AlignerState
 
 INTERVAL = 0.01
 
@@ -41,6 +44,46 @@ class Services(AlignerTestCase):
         self.call('pause')
         for i, state in enumerate(self.states.messages):
             self.assertEqual(state.tau, (i + 1) * INTERVAL)
+
+    def join(self, topic, kind):
+        newcomer = Newcomer(topic, kind)
+        self.addCleanup(newcomer.close)
+        return newcomer
+
+    def test_who_joins_at_a_standstill_gets_the_last_sample_and_nobody_gets_it_twice(self):
+        kinds = {'contacts': AlignerContacts, 'reaction/a1': WrenchStamped, 'reaction/a2': WrenchStamped}
+        others = {topic: self.listen(topic) for topic in kinds}
+        self.reset(self.states, *others.values())
+        self.step_by(samples=3)
+        listeners = dict(others, state=self.states)
+        for topic, listener in listeners.items():
+            self.assertTrue(listener.wait_for(4))
+            newcomer = self.join('/aligner/' + topic, kinds.get(topic, AlignerState))
+            given, last = newcomer.next(), listener.messages[-1]
+            given.header.seq = last.header.seq
+            self.assertEqual(given, last, topic)
+            self.assertIsNone(newcomer.next(0.3), topic)
+            self.assertEqual(len(listener.messages), 4, 'given to the newcomer alone')
+        newcomer = self.join('/aligner/state', AlignerState)
+        instants = [newcomer.next().tau]
+        self.assertTrue(self.call('start').success)
+        instants += [newcomer.next().tau for _ in range(19)]
+        self.assertEqual(instants, [i * INTERVAL for i in range(3, 23)], 'without a gap or a repeat')
+
+    def test_pose_is_told_again_at_a_standstill(self):
+        self.step_by(samples=3)
+        self.assertTrue(self.states.wait_for(3))
+        last = self.states.messages[-1]
+        newcomer = self.join('/tf', TFMessage)
+        transforms = [newcomer.next().transforms[0] for _ in range(3)]
+        for transform in transforms:
+            place = transform.transform.translation
+            self.assertEqual((transform.child_frame_id, place.x, place.z), ('part', last.si.x, last.si.y))
+        stamps = [last.header.stamp] + [transform.header.stamp for transform in transforms]
+        for earlier, later in zip(stamps, stamps[1:]):
+            self.assertLess(earlier, later)
+        self.assertAlmostEqual((stamps[3] - stamps[2]).to_sec(), 1.0, delta=0.3)
+        self.assertEqual(len(self.states.messages), 3, 'that is no sample')
 
     def test_step_pauses_a_running_trial(self):
         self.call('start')

@@ -22,6 +22,16 @@ TEST(Stamps, AreNeverZeroNorTwiceTheSame) {
   EXPECT_EQ(stamps.next(ros::Time(7, 1)), ros::Time(7, 2));
 }
 
+TEST(Stamps, OneMoreIsNoReadingOfTheClock) {
+  Stamps stamps{ros::Duration()};
+  stamps.next(ros::Time(7, 0));
+  EXPECT_EQ(stamps.one_more(), ros::Time(7, 1));
+  EXPECT_FALSE(stamps.set_back(ros::Time(7, 0)));
+  EXPECT_TRUE(stamps.set_back(ros::Time(6, 999999999)));
+  EXPECT_FALSE(stamps.set_back(ros::Time())) << "there is no clock";
+  EXPECT_EQ(stamps.next(ros::Time(7, 0)), ros::Time(7, 2));
+}
+
 TEST(Stamps, FollowASimulatedClockBackAtOnce) {
   Stamps stamps{ros::Duration()};
   stamps.next(ros::Time(7, 0));

@@ -11,6 +11,7 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/ros.h>
 #include <rviz/config.h>
+#include <std_srvs/Trigger.h>
 
 #include "panel_clicks.h"
 #include "rviz_panel/aligner_panel.h"
@@ -31,7 +32,8 @@ class PanelTest : public testing::Test {
     bool at_start = false;
     for (int tries = 0; tries < 5 && !at_start; ++tries) {  // the node may know of the panel later than it of the node
       click(panel_, "reset");
-      at_start = wait_until([this] { return points() == 1 && says("presence", "paused"); }, 3000);
+      at_start = wait_until([this] { return says("answer", "paused at the start"); }, 3000) &&
+                 wait_until([this] { return points() == 1 && says("presence", "paused"); }, 3000);
     }
     ASSERT_TRUE(at_start) << presence();
   }
@@ -68,6 +70,31 @@ class PanelTest : public testing::Test {
 
   AlignerPanel panel_;
 };
+
+/// Calls a service of the node; false: it is refused.
+bool trigger(const char* service) {
+  std_srvs::Trigger message;
+  return ros::service::waitForService(std::string("/aligner/") + service, 15000) &&
+         ros::service::call(std::string("/aligner/") + service, message) && message.response.success;
+}
+
+TEST(PanelThatStartsLaterTest, ShowsATrialThatStandsStill) {
+  ASSERT_TRUE(trigger("reset"));
+  ASSERT_TRUE(trigger("step"));
+  {
+    AlignerPanel panel;
+    EXPECT_TRUE(wait_until([&] { return says(panel, "presence", "paused: small"); }));
+    EXPECT_TRUE(says(panel, "outcome", "misalignment 400 \u00B5m at 50 \u00B5s"))
+        << child<QLabel>(panel, "outcome").text().toStdString();
+    EXPECT_EQ(child<HistoryPlot>(panel, "plot").history().points().size(), 1U);
+    EXPECT_EQ(child<NumberField>(panel, "pressing_force").suffix(), QString::fromUtf8(" F\u2081"));
+  }
+  for (int i = 0; i < 299; ++i) ASSERT_TRUE(trigger("step"));
+  ASSERT_FALSE(trigger("step"));
+  AlignerPanel panel;
+  EXPECT_TRUE(wait_until([&] { return says(panel, "presence", "ended: small"); }));
+  EXPECT_TRUE(says(panel, "outcome", "time limit at 15 ms"));
+}
 
 TEST_F(PanelTest, ButtonsRunPauseStepAndResetTheTrial) {
   click(panel_, "start");
@@ -147,7 +174,16 @@ TEST_F(PanelTest, LoadsAnotherScene) {
   click(panel_, "load");
   ASSERT_TRUE(wait_until([this] { return says("presence", "paused: gripper_si"); })) << presence();
   EXPECT_TRUE(wait_until([this] { return number("pressing_force").suffix() == " N"; }));
+  EXPECT_EQ(number("amplitude").suffix(), " N");
   EXPECT_EQ(points(), 1U);
+  scene.setCurrentText(TWISTED_SCENE);
+  click(panel_, "load");
+  EXPECT_TRUE(wait_until([this] { return number("amplitude").suffix() == " N m"; }));
+  EXPECT_EQ(number("amplitude").value(), 0.016) << "the moment of the scene";
+  EXPECT_EQ(number("pressing_force").suffix(), " N");
+  scene.setCurrentText("gripper_si");
+  click(panel_, "load");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "paused: gripper_si"); })) << presence();
   scene.setCurrentText("no_such_scene");
   click(panel_, "load");
   EXPECT_TRUE(wait_until([this] { return says("answer", "no_such_scene"); }));
