@@ -81,11 +81,14 @@ void CalibrationRun::begin(const Thinning& thinning) {
   best_.shortfall = shortfall_without({});
 }
 
-/// Looks for the least shortfall at no more than `reach` from the best set, with only the values of the group changed.
+/// Looks for the least shortfall at no more than `reach` from the best set, with only the values of the group changed,
+/// until all facts of the group are met.
 void CalibrationRun::stage(Method method, const CalibrationGroup& group, double reach, std::size_t population,
                            std::size_t evaluations) {
   ++stages_;
-  if (evaluations == 0 || group.parameters.empty()) return;
+  const double others = shortfall_without(group);
+  const auto nothing_to_gain = [&] { return best_.shortfall <= others; };
+  if (evaluations == 0 || group.parameters.empty() || nothing_to_gain()) return;
   const auto dimension = static_cast<unsigned>(group.parameters.size());
   std::vector<double> shares, low, high;
   for (const std::size_t i : group.parameters) {
@@ -109,7 +112,7 @@ void CalibrationRun::stage(Method method, const CalibrationGroup& group, double 
   std::exception_ptr failure;  // NLopt does not hand on what it does not know
   const std::function<double(const std::vector<double>&)> objective = [&](const std::vector<double>& point) {
     // NLopt itself may look at a few more
-    if (!tally_.go_on() || looked_at == evaluations) throw nlopt::forced_stop();
+    if (!tally_.go_on() || looked_at == evaluations || nothing_to_gain()) throw nlopt::forced_stop();
     ++looked_at;
     const double most = method == Method::simplex ? best_.shortfall + kSimplexRoom : kept.worst();
     try {
