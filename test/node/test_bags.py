@@ -5,7 +5,6 @@ import signal
 import subprocess
 import tempfile
 import time
-import unittest
 import xmlrpc.client
 
 import rosbag
