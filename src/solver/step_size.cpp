@@ -49,42 +49,32 @@ bool has_law(const Segment& segment, const ContactSeries& contact, Slip slip) {
   return segment.contacts[static_cast<std::size_t>(contact.site)].slip == slip;
 }
 
-/// The axes' velocities, beside which what a single one does may be no more than rounding.
-struct Speeds {
-  explicit Speeds(const Segment& s) : segment(s), present(std::abs(s.vx[0]) + std::abs(s.vy[0]) + std::abs(s.omega[0])) {}
-
-  /// True when contacts hold the axis: what its velocity's term of power k has, is not more than rounding of the forces
-  /// that cancel in it. `easiness`: acceleration for a force of one at the far end of the part.
-  bool hold_term(const Series& v, int k, double easiness) const {
-    if (k == 0) return std::abs(v[0]) <= kHeld * present;
+/// True when contacts hold the axis of velocity v: its terms are no more than rounding of what the part has of speed
+/// and of the forces that cancel in them. `mobility`: acceleration for a force of one at the far end of the part.
+bool contacts_hold(const Segment& s, const Series& v, double mobility) {
+  if (std::abs(v[0]) > kHeld * (std::abs(s.vx[0]) + std::abs(s.vy[0]) + std::abs(s.omega[0]))) return false;
+  const auto is_rounding = [&](int k) {
     double forces = 0.0;
-    for (int i = 0; i < segment.loaded_count; ++i)
-      forces += std::abs(segment.loaded[i].normal_force[k - 1]) + std::abs(segment.loaded[i].tangential_force[k - 1]);
-    return std::abs(v[k]) * k <= kHeld * easiness * forces;
-  }
-
-  bool hold(const Series& v, double easiness) const {
-    for (int k = 0; k < kLeadingTerms; ++k)
-      if (!hold_term(v, k, easiness)) return false;
-    return hold_term(v, segment.order - 1, easiness) && hold_term(v, segment.order, easiness);
-  }
-
-  const Segment& segment;
-  double present;
-};
+    for (int i = 0; i < s.loaded_count; ++i)
+      forces += std::abs(s.loaded[i].normal_force[k - 1]) + std::abs(s.loaded[i].tangential_force[k - 1]);
+    return std::abs(v[k]) * k <= kHeld * mobility * forces;
+  };
+  for (int k = 1; k < kLeadingTerms; ++k)
+    if (!is_rounding(k)) return false;
+  return is_rounding(s.order - 1) && is_rounding(s.order);
+}
 
 }  // namespace
 
 double series_step(const System& system, const Segment& segment, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
-  const Speeds speeds(segment);
   const double reach = system.half_width + system.base_distance;
   double shortest = kInfinity;
-  const auto look = [&](const Series& v, double easiness) {
+  const auto look = [&](const Series& v, double mobility) {
     // an axis whose leading terms vanish has no scale of its own; what is at rest must not begin to move either
     const double leading = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), std::abs(v[3])});
     const double last = std::max(std::abs(v[segment.order - 1]), std::abs(v[segment.order]));
-    if (leading == 0.0 || std::max(leading, last) < kRest || speeds.hold(v, easiness)) return;
+    if (leading == 0.0 || std::max(leading, last) < kRest || contacts_hold(segment, v, mobility)) return;
     shortest = std::min(shortest, log2_step(v, segment.order, log2_tolerance));
   };
   look(segment.vx, system.x.inverse_inertia);

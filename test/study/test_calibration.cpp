@@ -111,6 +111,15 @@ TEST(Calibration, counts_what_it_looks_at) {
   EXPECT_GT(result.evaluations, 4u * 8u);
 }
 
+TEST(Calibration, looks_no_further_where_all_facts_are_met) {
+  std::string text = calibration_text;
+  text.replace(text.find("start: 500"), 10, "start: 10000");
+  const std::string other = "  - {name: heavier, settings: {blow: {weight: 0.05 * 2}}, start: {C1: 700}}\n";
+  text.replace(text.find(other), other.size(), "");
+  // both searches look at the start, and once more when they go on to the round
+  EXPECT_EQ(CalibrationFiles(text).run(1).evaluations, 2u + 2u);
+}
+
 TEST(Calibration, puts_the_formulas_of_a_reading_after_the_others) {
   const Calibration calibration = load_calibration(CalibrationFiles().path());
   const FactSettings settings = settings_of(calibration, calibration.readings[1], {250.0});
