@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
+#include "solver/coincidence.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -23,12 +24,6 @@ double slip_scale(const ContactKinematics& k, const Motions& motions) {
   return largest;
 }
 
-/// Speeds of the part.
-double speed_scale(const System& system, const State& state) {
-  return std::abs(state.vx) + std::abs(state.vy) +
-         std::abs(state.omega) * (system.half_width + system.base_distance + system.slot_half_width);
-}
-
 /// Rates gained at the acceleration of the segment's start.
 State gain_of(const Segment& segment) {
   State gain;
@@ -45,12 +40,10 @@ Motions motions_of(const Segment& segment) { return {segment.begin, segment.end,
 /// A friction force this near to its limit, relative to it, is at the limit.
 constexpr double kAtLimit = 1e-2;
 
-/// A time in which nothing moves, unless speeds change by more than this part of them: what happens in it coincides.
-constexpr double kInstant = 1e-15, kNoChange = 1e-9;
-
 bool is_instant(const System& system, const Segment& segment) {
   if (segment.duration > kInstant) return false;
-  return speed_scale(system, gain_of(segment)) <= kNoChange * speed_scale(system, segment.begin);
+  const State gain = gain_of(segment);
+  return nothing_moves(system, segment.begin, gain.vx, gain.vy, gain.omega);
 }
 
 /// A base force this small, relative to that of its spring, is zero.
