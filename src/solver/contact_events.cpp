@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
-#include "solver/coincidence.h"
 #include "solver/contact_point.h"
 #include "solver/polynomial_roots.h"
 #include "solver/series_noise.h"
@@ -65,7 +64,7 @@ class Search {
  private:
   void offer(double time, EventKind kind, Site site, Face face = Face::none) {
     if (time == kNoRoot) return;
-    const double slack = time <= kInstant && is_still() ? kInstant : kCoincidence * time;
+    const double slack = kCoincidence * time;
     if (found_.count > 0 && time > found_.time + slack) return;
     if (found_.count == 0 || time < found_.time - slack) {
       found_.time = time;
@@ -73,20 +72,6 @@ class Search {
     }
     if (found_.count == kMaxEvents) return;
     found_.events[found_.count++] = {kind, site, face};
-  }
-
-  /// True when neither speeds nor the last digits of positions change within an instant.
-  bool is_still() const {
-    const State& begin = segment_.begin;
-    const double way = speed_scale(system_, begin.vx, begin.vy, begin.omega) * kInstant;
-    return way <= kLengthRounding * length_scale() &&
-           nothing_moves(system_, begin, acceleration_ * kInstant, 0.0, turn_acceleration_ * kInstant);
-  }
-
-  /// Lengths that positions are made of.
-  double length_scale() const {
-    return std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width + system_.base_distance +
-           system_.slot_half_width;
   }
 
   Vec2 start_point(Site site) const {
@@ -208,7 +193,8 @@ class Search {
     const ContactSeries& contact = segment_.loaded[loaded];
     const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
     const SitePins& pins = pins_[static_cast<std::size_t>(site)];
-    offer(first_fall(contact.normal_force, order_, duration_, pins.normal), EventKind::release, site);
+    const int zeros = zeros_of(contact.normal_force, pins.normal);
+    offer(first_fall(contact.normal_force, order_, duration_, zeros), EventKind::release, site);
     guard_limits(site, state.face);
     const double f = system_.friction;
     Series g;
@@ -279,8 +265,18 @@ class Search {
     guard_limits(site, face);
   }
 
+  /// Zeros that N starts with. Where rounding leaves a push instead of a single one, that is what it starts with: in a
+  /// stiff damper it relaxes, and makes a slope of its own at which zero would fall.
+  static int zeros_of(const Series& normal_force, int pinned) {
+    return pinned == 1 && normal_force[0] > 0.0 ? 0 : pinned;
+  }
+
   /// A condition that holds by no more than its last digits: its change decides.
-  bool is_rounding(double condition) const { return condition > 0.0 && condition <= kLengthRounding * length_scale(); }
+  bool is_rounding(double condition) const {
+    const double size = std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width + system_.base_distance +
+                        system_.slot_half_width;
+    return condition > 0.0 && condition <= kLengthRounding * size;
+  }
 
   void guard_outside(Site site) {
     const auto index = static_cast<std::size_t>(site);

@@ -73,7 +73,7 @@ void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, Judgeme
   const double limit = noise.h * noise.slip_rate[loaded];
   // out of a stick that has just broken, V' starts at zero
   const double friction = system_.friction * contact.normal_force[0];
-  const double nearly = noise.state_slip_rate[loaded] + limit_tolerance_ * noise.mobility[loaded] * std::abs(friction);
+  const double nearly = noise.state_slip_rate[loaded] + limit_error() * noise.mobility[loaded] * std::abs(friction);
   const bool broken = has_event(site) && std::abs(contact.slip_velocity[1]) <= nearly;
   const LeadingTerm term = leading_term(contact.slip_velocity, broken ? 2 : 1, kOrder, noise.h, limit);
   const bool forward = term.positive == (probe_.contacts[site].slip == Slip::plus);
@@ -93,7 +93,7 @@ void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double
   const double limit_noise = system_.friction * noise.normal_force[loaded];
   const double limit = limit_noise + std::min(force_noise, kMostForceNoise * limit_noise);
   const double nearly =
-      system_.friction * (noise.state_normal_force[loaded] + limit_tolerance_ * std::abs(contact.normal_force[0]));
+      system_.friction * (noise.state_normal_force[loaded] + limit_error() * std::abs(contact.normal_force[0]));
   for (const double sign : {1.0, -1.0}) {
     Series guard;
     for (std::size_t k = 0; k < kOrder; ++k)
@@ -158,10 +158,12 @@ bool FrictionChoice::decide_alone(const State& state, const DriveForms& drives, 
   return true;
 }
 
-void FrictionChoice::decide(const State& state, const DriveForms& drives, const SiteFlags& at_rest, ContactMode& mode) {
+void FrictionChoice::decide(const State& state, const DriveForms& drives, const SiteFlags& at_rest, ContactMode& mode,
+                            bool unmoved) {
   std::array<std::size_t, kSiteCount> sites{};
   int count = 0, choices = 1;
   known_ = mode.pins;
+  unmoved_ = unmoved;
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     decided_[i] = at_rest[i];
     if (!at_rest[i]) continue;

@@ -22,8 +22,10 @@ class FrictionChoice {
 
   /// Decides slip of the loaded contacts marked `at_rest` (V = 0) in `state`; the others keep theirs. The mode's pins
   /// hold the zeros of f N -+ T that events have just brought about; on return those of V and f N -+ T of all it
-  /// decides.
-  void decide(const State& state, const DriveForms& drives, const SiteFlags& at_rest, ContactMode& mode);
+  /// decides. `unmoved`: the state is still that from whose series these events are, so that a limit may be
+  /// reached by them although the forces in the state are not near it.
+  void decide(const State& state, const DriveForms& drives, const SiteFlags& at_rest, ContactMode& mode,
+              bool unmoved = false);
 
  private:
   /// How far a choice is from being consistent: the order in time of its first contradiction, and its size beside
@@ -41,6 +43,8 @@ class FrictionChoice {
     void contradict(int at_order, double size);
   };
 
+  /// How far a friction force may be from a limit that an event says it has reached, relative to the limit.
+  double limit_error() const { return unmoved_ ? 1.0 : limit_tolerance_; }
   bool has_event(std::size_t site) const;
   bool decide_alone(const State& state, const DriveForms& drives, std::size_t site, ContactMode& mode);
   void judge(const State& state, const DriveForms& drives, double allowance, Judgement& judgement);
@@ -52,7 +56,8 @@ class FrictionChoice {
   MotionSeries series_;
   Segment probe_;
   SiteFlags decided_{};
-  Pins known_{};  ///< zeros that events have just put there
+  Pins known_{};          ///< zeros that events have just put there
+  bool unmoved_ = false;  ///< and the state is as it was before
 };
 
 }  // namespace vibratory_alignment

@@ -46,6 +46,11 @@ bool is_instant(const System& system, const Segment& segment) {
   return nothing_moves(system, segment.begin, gain.vx, gain.vy, gain.omega);
 }
 
+bool only_slip(const FoundEvents& events) {
+  return std::all_of(events.events.begin(), events.events.begin() + events.count,
+                     [](const Event& event) { return event.kind == EventKind::slip; });
+}
+
 /// A base force this small, relative to that of its spring, is zero.
 constexpr double kPushRounding = 1e-9;
 
@@ -56,9 +61,11 @@ constexpr double kFastestRecovery = 1e12;
 double sliding_threshold(const System& system) { return system.tanh_saturation * system.regularization; }
 
 /// Sets the law of friction of every loaded contact. `zero_slip` marks those whose V or stick an event has just brought
-/// to its end, `slides` those that are decided already; `motions`: what V is small against.
+/// to its end, `slides` those that are decided already; `motions`: what V is small against; `unmoved`: the events lie
+/// within the last digits of the state.
 void set_friction(const System& system, const State& state, const DriveForms& drives, const Motions& motions,
-                  const SiteFlags& zero_slip, const SiteFlags& slides, FrictionChoice& friction, ContactMode& mode) {
+                  const SiteFlags& zero_slip, const SiteFlags& slides, bool unmoved, FrictionChoice& friction,
+                  ContactMode& mode) {
   if (system.friction == 0.0) return;
   SiteFlags at_rest{};
   for (std::size_t i = 0; i < kSiteCount; ++i) {
@@ -89,7 +96,7 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
     if (at_rest[i] && !zero_slip[i] && !starts && contact.slip == Slip::minus) mode.pins[i].hold_plus = 1;
     if (!at_rest[i] && contact.slip == Slip::none) contact.slip = v > 0.0 ? Slip::plus : Slip::minus;
   }
-  friction.decide(state, drives, at_rest, mode);
+  friction.decide(state, drives, at_rest, mode, unmoved);
 }
 
 /// True when k d + h d' < 0, by more than rounding.
@@ -196,7 +203,8 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
       default: break;
     }
   }
-  set_friction(system, state, drives_at_end, motions_of(segment), zero_slip, slides, friction, mode);
+  const bool unmoved = only_slip(events) && !events.parts && is_unmoved(system, segment.begin, segment.end);
+  set_friction(system, state, drives_at_end, motions_of(segment), zero_slip, slides, unmoved, friction, mode);
   for (int i = 0; i < events.count; ++i) {
     Event& event = events.events[i];
     if (event.kind == EventKind::slip_reversal &&
@@ -222,7 +230,7 @@ double excess_friction(const System& system, const Segment& segment, double step
 
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,
                           FrictionChoice& friction, ContactMode& mode) {
-  set_friction(system, segment.end, drives, motions_of(segment), {}, {}, friction, mode);
+  set_friction(system, segment.end, drives, motions_of(segment), {}, {}, false, friction, mode);
 }
 
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives, FrictionChoice& friction) {
@@ -231,7 +239,7 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
   for (std::size_t i = 0; i < kSiteCount; ++i)
     if (system.recovery && mode.contacts[i].phase == Phase::unloaded)
       mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
-  set_friction(system, start, drives, {start, start, start}, {}, {}, friction, mode);
+  set_friction(system, start, drives, {start, start, start}, {}, {}, false, friction, mode);
   return mode;
 }
 
