@@ -34,7 +34,8 @@ void warn_without_scales(const Scene& scene) {
            scene.name.c_str());
 }
 
-Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters)
+Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters,
+                 int master)
     : handle_(private_handle),
       parameters_(parameters),
       frames_(frames_with_prefix(parameters.tf_prefix)),
@@ -64,7 +65,7 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   for (const char* name : {"set_parameters", "get_loggers", "set_logger_level"}) {
     services.push_back(handle_.resolveName(name));
   }
-  master_watch_.emplace(std::move(services));
+  master_watch_.emplace(std::move(services), master);
 }
 
 void Aligner::advertise() {

@@ -40,7 +40,8 @@ void warn_without_scales(const Scene& scene);
 class Aligner {
  public:
   /// Throws as Simulation does when the scene has no start, and ParameterError when it cannot publish the clock.
-  Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters);
+  /// `master`: as known to MasterWatch.
+  Aligner(const ros::NodeHandle& private_handle, const Scene& scene, const NodeParameters& parameters, int master);
 
   /// Runs until ROS shuts down, interrupted() is true, or the trial is done and ~exit_when_done. What has been
   /// published then gets the time to go out.

@@ -12,6 +12,7 @@
 #include <ros/xmlrpc_manager.h>
 
 #include "node/aligner.h"
+#include "node/master_watch.h"
 #include "node/node_parameters.h"
 #include "node/scene_from_params.h"
 
@@ -42,13 +43,14 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  const int master = master_process();
   const ros::NodeHandle private_handle("~");
   // roscpp's own answer would shut ROS down before a goal can be ended
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown_request);
   try {
     const Scene scene = scene_from_params(private_handle);
-    Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene));
+    Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene), master);
     aligner.spin([] { return interrupted.load(); });
   } catch (const std::exception& error) {
     return fail(error.what());

@@ -25,12 +25,6 @@ bool ask_master(const char* method, XmlRpcValue& request, XmlRpcValue& answer) {
   return ros::master::execute(method, request, response, answer, false);
 }
 
-/// Changes with every start of the master; 0 while there is none.
-int master_process() {
-  XmlRpcValue request, answer;
-  return ask_master("getPid", request, answer) ? static_cast<int>(answer) : 0;
-}
-
 /// A call to this node's own slave API (http://wiki.ros.org/ROS/Slave_API), which lists and connects its topics.
 XmlRpcValue ask_self(const char* method, XmlRpcValue request) {
   const auto port = static_cast<int>(ros::XMLRPCManager::instance()->getServerPort());
@@ -72,8 +66,13 @@ void register_all(const std::vector<std::string>& services) {
 
 }  // namespace
 
-MasterWatch::MasterWatch(std::vector<std::string> services) : services_(std::move(services)) {
-  thread_ = std::thread([this] { watch(); });
+int master_process() {
+  XmlRpcValue request, answer;
+  return ask_master("getPid", request, answer) ? static_cast<int>(answer) : 0;
+}
+
+MasterWatch::MasterWatch(std::vector<std::string> services, int known) : services_(std::move(services)) {
+  thread_ = std::thread([this, known] { watch(known); });
 }
 
 MasterWatch::~MasterWatch() {
@@ -85,8 +84,7 @@ MasterWatch::~MasterWatch() {
   thread_.join();
 }
 
-void MasterWatch::watch() {
-  int known = master_process();
+void MasterWatch::watch(int known) {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopped_.wait_for(lock, kInterval, [this] { return stop_; })) {
     lock.unlock();

@@ -11,16 +11,20 @@
 
 namespace vibratory_alignment {
 
+/// Number of the master's process, another one with every start of a master; 0 while there is none.
+int master_process();
+
 class MasterWatch {
  public:
-  /// `services`: all that this node advertises, by full name. Its topics are found.
-  explicit MasterWatch(std::vector<std::string> services);
+  /// `services`: all that this node advertises, by full name. Its topics are found. `known`: the master's process
+  /// before anything was registered: one that came while it was knows only a part.
+  MasterWatch(std::vector<std::string> services, int known);
   ~MasterWatch();
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
  private:
-  void watch();
+  void watch(int known);
 
   std::vector<std::string> services_;
   std::mutex mutex_;

@@ -61,6 +61,18 @@ class LostMaster(unittest.TestCase):
         self.master.kill()
         self.assertEqual(node.wait(10.0), 0)
 
+    def test_new_master_while_the_node_starts_knows_all_of_it(self):
+        node = self.start_node('_time_scale:=0.0005', '_autostart:=false')
+        while '/aligner/set_parameters' not in self.registered():
+            self.assertIsNone(node.poll())
+        node.send_signal(signal.SIGSTOP)  # the rest it tells the next one
+        self.master.kill()
+        self.master.wait()
+        self.start_master()
+        node.send_signal(signal.SIGCONT)
+        self.wait_until(lambda: {'/aligner/get_loggers', '/aligner/set_parameters', '/aligner/align/goal',
+                                 '/aligner/step'} <= self.registered(), 'not all is registered')
+
     def test_new_master_knows_all_of_the_node(self):
         node = self.start_node('_time_scale:=0.0005', '_autostart:=false')
         self.wait_until(lambda: {'/aligner/set_parameters', '/aligner/align/goal', '/diagnostics'} <= self.registered(),
