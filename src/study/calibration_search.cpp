@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
-#include <nlopt.hpp>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -12,6 +11,9 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr nlopt::algorithm kRandomSearch = nlopt::GN_CRS2_LM, kSimplex = nlopt::LN_SBPLX,
+                           kQuadraticModel = nlopt::LN_BOBYQA;
 
 /// First step of the simplex search, as a share of the ranges.
 constexpr double kSimplexStep = 0.1;
@@ -77,7 +79,7 @@ void CalibrationRun::search_all_ranges() {
   const CalibrationSearch& search = calibration_.search;
   begin(search.thinning);
   seed();
-  improve(best_, shortfall_->all(), {Method::random_search, 1.0, search.population, search.global_evaluations});
+  improve(best_, shortfall_->all(), {kRandomSearch, 1.0, search.population, search.global_evaluations});
 }
 
 void CalibrationRun::search_around(const CalibrationRound& round) {
@@ -89,14 +91,14 @@ void CalibrationRun::search_around(const CalibrationRound& round) {
       search_adapting(group, round);
     else
       improve(best_, group,
-              {Method::random_search, round.reach, 1 + kKeptPerValue * group.parameters.size(),
+              {kRandomSearch, round.reach, 1 + kKeptPerValue * group.parameters.size(),
                is_shared(group) ? round.shared_evaluations : round.own_evaluations});
   }
 }
 
 void CalibrationRun::search_nearby() {
   seed();
-  improve(best_, shortfall_->all(), {Method::simplex, kSimplexStep, 0, calibration_.search.local_evaluations});
+  improve(best_, shortfall_->all(), {kSimplex, kSimplexStep, 0, calibration_.search.local_evaluations});
 }
 
 /// Judges the best set so far on the studies as they are thinned out from now on.
@@ -120,12 +122,13 @@ void CalibrationRun::improve(JudgedSet& set, const CalibrationGroup& group, cons
   minimize(
       stage, at(group.parameters, set.shares), [&] { return set.shortfall <= others; },
       [&](const std::vector<double>& point, double most) {
-        return look_at(set, group, point, stage.method == Method::simplex ? set.shortfall + kSimplexRoom : most);
+        return look_at(set, group, point, stage.method == kSimplex ? set.shortfall + kSimplexRoom : most);
       });
 }
 
-/// Looks for values of all studies that are better once the values of each group of studies are adapted to them. The
-/// simplex changes a few of them at a time, for a candidate costs as much as many sets.
+/// Looks for values of all studies that are better once the values of each group of studies are adapted to them. A
+/// candidate costs as much as many sets, so that they are chosen by a model of what was found, a few at first along
+/// each axis.
 void CalibrationRun::search_adapting(const CalibrationGroup& shared, const CalibrationRound& round) {
   // first the facts without values of their own, then the groups of those that have some, cheap ones first
   CalibrationGroup rest{{}, shortfall_->all().parts};
@@ -145,7 +148,7 @@ void CalibrationRun::search_adapting(const CalibrationGroup& shared, const Calib
   if (!rest.parts.empty()) groups.insert(groups.begin(), std::move(rest));
 
   minimize(
-      {Method::simplex, round.reach, 0, round.shared_evaluations}, at(shared.parameters, best_.shares),
+      {kQuadraticModel, round.reach, 0, round.shared_evaluations}, at(shared.parameters, best_.shares),
       [&] { return best_.shortfall <= 0.0; },
       [&](const std::vector<double>& point, double) {
         return look_at_adapted(shared, point, groups, *round.adaptation);
@@ -170,8 +173,7 @@ double CalibrationRun::look_at_adapted(const CalibrationGroup& shared, const std
       look_at(candidate, group, {}, kInfinity);
     else
       improve(candidate, group,
-              {Method::random_search, adaptation.reach, 1 + kKeptPerValue * group.parameters.size(),
-               adaptation.evaluations});
+              {kRandomSearch, adaptation.reach, 1 + kKeptPerValue * group.parameters.size(), adaptation.evaluations});
     const double as_good_as_best = best_.shortfall - rest;
     if (candidate.shortfall >= best_.shortfall || candidate.shortfall > as_good_as_best + adaptation.room)
       return candidate.shortfall + rest;
@@ -184,17 +186,17 @@ double CalibrationRun::look_at_adapted(const CalibrationGroup& shared, const std
 void CalibrationRun::minimize(const Stage& stage, const std::vector<double>& start,
                               const std::function<bool()>& nothing_to_gain, const Objective& objective) {
   if (stage.evaluations == 0 || start.empty() || nothing_to_gain()) return;
-  const bool simplex = stage.method == Method::simplex;
+  const bool random = stage.method == kRandomSearch;
   std::vector<double> low, high;
   for (const double share : start) {
-    low.push_back(simplex ? 0.0 : std::max(0.0, share - stage.reach));
-    high.push_back(simplex ? 1.0 : std::min(1.0, share + stage.reach));
+    low.push_back(random ? std::max(0.0, share - stage.reach) : 0.0);
+    high.push_back(random ? std::min(1.0, share + stage.reach) : 1.0);
   }
-  nlopt::opt optimizer(simplex ? nlopt::LN_SBPLX : nlopt::GN_CRS2_LM, static_cast<unsigned>(start.size()));
-  if (simplex)
-    optimizer.set_initial_step(stage.reach);
-  else
+  nlopt::opt optimizer(stage.method, static_cast<unsigned>(start.size()));
+  if (random)
     optimizer.set_population(static_cast<unsigned>(stage.population));
+  else
+    optimizer.set_initial_step(stage.reach);
   optimizer.set_lower_bounds(low);
   optimizer.set_upper_bounds(high);
   optimizer.set_maxeval(static_cast<int>(stage.evaluations));
@@ -208,7 +210,7 @@ void CalibrationRun::minimize(const Stage& stage, const std::vector<double>& sta
     if (!tally_.go_on() || looked_at == stage.evaluations || nothing_to_gain()) throw nlopt::forced_stop();
     ++looked_at;
     try {
-      const double value = objective(point, simplex ? kInfinity : kept.worst());
+      const double value = objective(point, random ? kept.worst() : kInfinity);
       kept.add(value);
       return value;
     } catch (...) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <nlopt.hpp>
 #include <optional>
 #include <vector>
 
@@ -27,8 +28,6 @@ class CalibrationRun {
   CalibratedSet best() const;
 
  private:
-  enum class Method { random_search, simplex };
-
   /// A set, by the shares of its values in their ranges, and what is known of it so far.
   struct JudgedSet {
     std::vector<double> shares;
@@ -40,8 +39,8 @@ class CalibrationRun {
 
   /// What a stage of the search is to do.
   struct Stage {
-    Method method;
-    double reach = 0.0;          ///< as a share of the ranges: of the random search, or first step of the simplex
+    nlopt::algorithm method;
+    double reach = 0.0;          ///< as a share of the ranges: of the random search, first step of the others
     std::size_t population = 0;  ///< of the random search
     std::size_t evaluations = 0;
   };
