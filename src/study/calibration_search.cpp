@@ -127,8 +127,7 @@ void CalibrationRun::improve(JudgedSet& set, const CalibrationGroup& group, cons
 }
 
 /// Looks for values of all studies that are better once the values of each group of studies are adapted to them. A
-/// candidate costs as much as many sets, so that they are chosen by a model of what was found, a few at first along
-/// each axis.
+/// candidate costs as much as many sets, so that they are chosen by a model of what was found.
 void CalibrationRun::search_adapting(const CalibrationGroup& shared, const CalibrationRound& round) {
   // first the facts without values of their own, then the groups of those that have some, cheap ones first
   CalibrationGroup rest{{}, shortfall_->all().parts};

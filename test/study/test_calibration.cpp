@@ -262,8 +262,10 @@ TEST(CalibrationParameter, covers_its_range) {
 }
 
 /// Values that no study depends on, or that are searched for in two places, would be a mistake in the file.
-TEST(ShippedCalibration, has_every_value_in_one_group) {
-  const Calibration calibration = load_calibration(std::string(SCENE_DIR) + "/../paper/calibration.yaml");
+class ShippedCalibration : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedCalibration, has_every_value_in_one_group) {
+  const Calibration calibration = load_calibration(std::string(SCENE_DIR) + "/../paper/" + GetParam());
   const FactSuite suite = load_fact_suite(
       calibration.facts_file, [](const std::string& name) { return std::string(SCENE_DIR) + "/" + name + ".yaml"; });
   for (const CalibrationReading& reading : calibration.readings) {
@@ -280,6 +282,8 @@ TEST(ShippedCalibration, has_every_value_in_one_group) {
     for (std::size_t g = 1; g < groups.size(); ++g) EXPECT_LT(groups[g].parts.size(), groups.front().parts.size() / 2);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(files, ShippedCalibration, testing::Values("calibration.yaml", "calibration_adapting.yaml"));
 
 /// The message of a calibration file in which `from` stands for `to`.
 std::string refusal(const std::string& from, const std::string& to) {
