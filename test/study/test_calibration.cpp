@@ -165,15 +165,18 @@ search:
 
 constexpr char adapting[] = "adapt: {reach: 0.2, evaluations: 40, room: 1}, ";
 
-CalibrationResult run_two_blows(const std::string& further_key, int threads = 1,
+std::string two_blows(const std::string& key_of_the_round) {
+  std::string text = calibration_of_two_blows;
+  return text.insert(text.find("own_evaluations"), key_of_the_round);
+}
+
+CalibrationResult run_two_blows(const std::string& text, int threads = 1,
                                 std::map<CalibrationPlace, CalibrationAnswer>* known = nullptr) {
   test::Folder folder;
   folder.write("scene.yaml", scene);
   folder.write("blow.yaml", "scene: scene.yaml\n");
   folder.write("slow.yaml", "scene: scene.yaml\n");
   folder.write("facts.yaml", facts_of_two_blows);
-  std::string text = calibration_of_two_blows;
-  text.insert(text.find("own_evaluations"), further_key);
   CalibrationOptions options;
   options.threads = threads;
   options.find_scene = [](const std::string& name) { return name; };
@@ -190,8 +193,8 @@ CalibrationResult run_two_blows(const std::string& further_key, int threads = 1,
 }
 
 TEST(CalibrationThatAdapts, finds_what_values_that_are_held_in_turn_hide) {
-  EXPECT_EQ(run_two_blows("").best.front().met(), 1u);
-  const CalibratedSet best = run_two_blows(adapting).best.front();
+  EXPECT_EQ(run_two_blows(two_blows("")).best.front().met(), 1u);
+  const CalibratedSet best = run_two_blows(two_blows(adapting)).best.front();
   EXPECT_EQ(best.met(), 2u);
   EXPECT_NEAR(best.values[0], 4e4, 0.06 * 4e4);  // 2.5 % of the force, and 2 % of the estimate
   EXPECT_NEAR(best.values[1], 1.0, 0.06);
@@ -199,24 +202,28 @@ TEST(CalibrationThatAdapts, finds_what_values_that_are_held_in_turn_hide) {
 
 TEST(CalibrationThatAdapts, goes_on_from_what_it_knows) {
   std::map<CalibrationPlace, CalibrationAnswer> known;
-  const CalibrationResult whole = run_two_blows(adapting, 1, &known);
+  const CalibrationResult whole = run_two_blows(two_blows(adapting), 1, &known);
   ASSERT_EQ(known.size(), whole.evaluations);
   // the first half again, and the rest anew
   known.erase(std::next(known.begin(), static_cast<std::ptrdiff_t>(known.size() / 2)), known.end());
-  const CalibrationResult again = run_two_blows(adapting, 2, &known);
+  const CalibrationResult again = run_two_blows(two_blows(adapting), 2, &known);
   EXPECT_EQ(again.best.front().values, whole.best.front().values);
   EXPECT_EQ(again.best.front().shortfall, whole.best.front().shortfall);
   EXPECT_EQ(again.evaluations, whole.evaluations);
   EXPECT_EQ(known.size(), whole.evaluations);
 }
 
-/// With one evaluation of each group a candidate costs no more than a set, and one that is given up less.
-TEST(CalibrationThatAdapts, spends_no_more_than_it_may) {
-  const CalibrationResult result = run_two_blows("adapt: {reach: 0.2, evaluations: 1, room: 1}, ");
-  // all ranges, the best set anew for the round; candidates: slow (no value of its own), then blow; own values; the
-  // rest
-  EXPECT_LE(result.evaluations, 1u + 1u + 1u + 2u * 40u + 40u + 1u);
-  EXPECT_LE(result.trials, 2u + 2u + 2u + 2u * 40u + 40u + 2u);
+/// From v = 2.5 the own blow falls short as well, and is hardly adapted. So a candidate that is worse in the slow one,
+/// which is judged first, could still be better than the best set: with room it is looked at whole, without it is not.
+TEST(CalibrationThatAdapts, gives_up_what_is_worse_by_more_than_the_room) {
+  const auto evaluations = [](const std::string& room) {
+    std::string text = two_blows("adapt: {reach: 0.001, evaluations: 5, room: " + room + "}, ");
+    text.replace(text.find("start: 2}"), 9, "start: 2.5}");
+    text.replace(text.find("shared_evaluations: 40"), 22, "shared_evaluations: 3");  // the start, more C1, and less
+    text.replace(text.find("own_evaluations: 40"), 19, "own_evaluations: 1");
+    return run_two_blows(text).evaluations;
+  };
+  EXPECT_LT(evaluations("0"), evaluations("1"));
 }
 
 TEST(Calibration, puts_the_formulas_of_a_reading_after_the_others) {
