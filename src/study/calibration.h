@@ -1,14 +1,15 @@
 // Calibration: the search for values that the paper leaves out, such that a trial of its figures shows what it says.
 //
 // A set is a value for every parameter. Its settings go into the studies that the facts are measured on; its shortfall
-// is the sum over the facts of s/(1 + s), s a fact's own (facts.h): 0 when all are met, less than one a fact, so that no
-// fact that is far out of reach is bought with those that are near. Every reading of the paper is searched, with several
-// seeds each: first all ranges at once, by a controlled random search (NLopt's CRS2 with local mutation). The searches
-// with the best sets go on, in rounds that look around the best set so far, nearer and nearer and on fuller studies. A
-// round takes the values of all studies first, then for each figure its own: those ask only for that figure's studies,
-// which is what makes a round cheap. At last a subspace simplex search (NLopt's Sbplx) over all values. What a study's
-// samples leave of noise is in the shortfall as well, so derivatives would be of no use. The best sets of all searches
-// are judged on the whole studies.
+// is the sum over the facts of s/(1 + s), s a fact's own (facts.h): 0 when all are met, less than one a fact, so that
+// no fact that is far out of reach is bought with those that are near. Every reading of the paper is searched, with
+// several seeds each: first all ranges at once, by a controlled random search (NLopt's CRS2 with local mutation). The
+// searches with the best sets go on, in rounds that look around the best set so far, nearer and nearer and on fuller
+// studies. A round takes the values of all studies first, then for each figure its own: those ask only for that
+// figure's studies, which is what makes a round cheap. Values of all studies that are better only with other values of
+// the figures are found by a round that adapts these to each candidate. At last a subspace simplex search (NLopt's
+// Sbplx) over all values. What a study's samples leave of noise is in the shortfall as well, so derivatives would be of
+// no use. The best sets of all searches are judged on the whole studies.
 #pragma once
 
 #include <cstddef>
@@ -46,13 +47,21 @@ struct CalibrationReading {
   std::vector<double> start;     ///< the first set of its searches, in the order of the parameters
 };
 
+/// How the values of each group of studies are adapted to a candidate for those that all studies have in common.
+struct CalibrationAdaptation {
+  double reach = 0.0;           ///< to both sides of those of the best set, as a share of the ranges
+  std::size_t evaluations = 0;  ///< of each group, the best set's own values first
+  double room = 0.0;            ///< how much more than the best set a candidate may fall short on its way
+};
+
 /// A look around the best set so far.
 struct CalibrationRound {
   std::size_t searches = 1;  ///< that go on to it, those that have found most; no more than in the round before
   double reach = 0.0;        ///< to both sides of the best set, as a share of the ranges
-  std::size_t shared_evaluations = 0;  ///< of the values that all studies have in common
-  std::size_t own_evaluations = 0;     ///< of those of each group of studies that has values of its own
-  Thinning thinning;                   ///< of the studies
+  std::size_t shared_evaluations = 0;               ///< of the values that all studies have in common
+  std::optional<CalibrationAdaptation> adaptation;  ///< to each of these; without, those of the best set are held
+  std::size_t own_evaluations = 0;                  ///< of those of each group of studies that has values of its own
+  Thinning thinning;                                ///< of the studies
 };
 
 struct CalibrationSearch {

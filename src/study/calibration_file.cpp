@@ -65,11 +65,21 @@ Thinning read_thinning(TreeReader reader) {
   return thinning;
 }
 
+CalibrationAdaptation read_adaptation(TreeReader reader) {
+  CalibrationAdaptation adaptation;
+  adaptation.reach = reader.required_number("reach", positive_number);
+  adaptation.evaluations = read_count(reader, "evaluations");
+  adaptation.room = reader.required_number("room", not_negative_number);
+  reader.refuse_unknown_keys();
+  return adaptation;
+}
+
 CalibrationRound read_round(TreeReader reader) {
   CalibrationRound round;
   round.searches = read_count(reader, "searches");
   round.reach = reader.required_number("reach", positive_number);
   round.shared_evaluations = read_count(reader, "shared_evaluations");
+  if (reader.has("adapt")) round.adaptation = read_adaptation(reader.section("adapt"));
   round.own_evaluations = read_count(reader, "own_evaluations");
   round.thinning = read_thinning(reader.section("thinning"));
   reader.refuse_unknown_keys();
