@@ -87,7 +87,8 @@ TEST(PanelThatStartsLaterTest, ShowsATrialThatStandsStill) {
     EXPECT_TRUE(says(panel, "outcome", "misalignment 400 \u00B5m at 50 \u00B5s"))
         << child<QLabel>(panel, "outcome").text().toStdString();
     EXPECT_EQ(child<HistoryPlot>(panel, "plot").history().points().size(), 1U);
-    EXPECT_EQ(child<NumberField>(panel, "pressing_force").suffix(), QString::fromUtf8(" F\u2081"));
+    const auto unit = [&] { return child<NumberField>(panel, "pressing_force").suffix(); };  // comes with the settings
+    EXPECT_TRUE(wait_until([&] { return unit() == QString::fromUtf8(" F\u2081"); })) << unit().toStdString();
   }
   for (int i = 0; i < 299; ++i) ASSERT_TRUE(trigger("step"));
   ASSERT_FALSE(trigger("step"));
