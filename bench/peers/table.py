@@ -2,7 +2,7 @@
 """Tables of processor time over error, as Markdown, from the lines that `run` printed.
 
 An error counts for a setting if that setting and every tighter one of the same peer keep it; the time is the least of
-those settings' medians. Position errors are the largest of |x|, |y|, |phi| at the end.
+those settings' least times (docs/accuracy.md says why not medians). Position errors are the largest of |x|, |y|, |phi| at the end.
 Usage: table.py FILE.csv
 """
 import csv
@@ -20,7 +20,7 @@ POSITION, STATE, X = slice(0, 3), slice(0, 6), slice(0, 1)
 class Run:
     def __init__(self, row):
         self.peer, self.problem = row["peer"], row["problem"]
-        self.setting, self.time_s = float(row["setting"]), float(row["cpu_median_s"])
+        self.setting, self.time_s = float(row["setting"]), float(row["cpu_min_s"])
         self.state = [float(row[name]) for name in ("x", "y", "phi", "vx", "vy", "omega")]
 
     def error(self, answer, part):
