@@ -133,8 +133,6 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   delicate_ = delicate_ || !regular_;
 }
 
-double HoldingForces::sameness() const { return count_ > 1 && full_.rank < count_ ? kSame : 0.0; }
-
 /// G_ii.
 double HoldingForces::mobility(int i) const {
   const TangentRow& row = rows_[i];

@@ -42,9 +42,6 @@ class HoldingForces {
   /// the corrected motion and taken out once more.
   bool delicate() const { return delicate_; }
 
-  /// How much rows differ, at most, that count as the same; 0 when none do.
-  double sameness() const;
-
   /// The smallest T with |G T - rhs| <= noise; if none is as exact, the smallest of those that come nearest.
   Answer hold(const Vector& rhs, const Vector& noise) const;
 

@@ -56,10 +56,7 @@ void hold_noise(const System& system, const Segment& segment, const Kinematics& 
   const int order = segment.order;
   const double ax = largest_slope_term(segment.vx, order, noise.h), ay = largest_slope_term(segment.vy, order, noise.h),
                turn = largest_slope_term(segment.omega, order, noise.h);
-  // contacts that count as the same cannot hold what the state's rounding makes of the little that they differ by
-  const double same =
-      holding.sameness() * *std::max_element(noise.state_slip_rate.begin(), noise.state_slip_rate.end());
-  noise.held_slip_rate = same;
+  noise.held_slip_rate = 0.0;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const TangentRow row = row_of(kinematics[i]);
     const double motion =
