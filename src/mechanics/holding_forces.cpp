@@ -144,6 +144,7 @@ double HoldingForces::mobility(int i) const {
 /// once more.
 HoldingForces::Answer HoldingForces::hold_with(const Factor& factor, const Vector& rhs) const {
   Answer answer;
+  answer.told_apart = factor.rank > safe_.rank;
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   for (int pass = 0; pass < kPasses; ++pass) {
     Vector left{};
@@ -214,9 +215,16 @@ HoldingForces::Answer HoldingForces::hold_motion(const Answer& motion, const Vec
   };
   Answer held = hold_motion(motion, own_rates, noise_of(motion));
   if (!delicate_) return held;
-  Vector rates{};
-  for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, held) - own_rates[i];
-  const Answer correction = hold(rates, noise_of(held));
+  const auto taken_out_once_more = [&] {
+    Vector rates{};
+    for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, held) - own_rates[i];
+    return hold(rates, noise_of(held));
+  };
+  Answer correction = taken_out_once_more();
+  if (correction.told_apart && !held.told_apart) {  // T are then those of the motion, told apart as well
+    held = hold_motion(motion, own_rates, {});
+    correction = taken_out_once_more();
+  }
   held.x += correction.x;
   held.y += correction.y;
   held.phi += correction.phi;

@@ -30,6 +30,7 @@ class HoldingForces {
   struct Answer {
     Vector force{};
     double x = 0.0, y = 0.0, phi = 0.0;
+    bool told_apart = false;  ///< contacts of nearly the same row take each a T of its own, not all the same
   };
 
   /// The first `count` rows. What is rounding beside the mobility of the part holds nothing.

@@ -118,9 +118,12 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   for (int m = 0; m < sticking_count_; ++m) own[m] = -rates[m];
   for (int m = 0; m < sticking_count_ && !holding_.regular(); ++m)
     noise[m] = kSlipRateRounding * slip_rate_size(contacts_[sticking_[m]], k, segment);
-  const HoldingForces::Answer held = holding_.hold_motion(free, own, noise);
-  for (int m = 0; m < sticking_count_; ++m) segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
-  set_motion(k, held, segment);
+  HoldingForces::Answer held = holding_.hold_motion(free, own, noise);
+  const auto take = [&] {
+    for (int m = 0; m < sticking_count_; ++m) segment.loaded[sticking_[m]].tangential_force[k] = held.force[m];
+    set_motion(k, held, segment);
+  };
+  take();
   // V of what slides beside them may begin with less than the rounding of these forces makes of it
   const bool something_slides = segment.loaded_count > sticking_count_;
   if (!holding_.delicate() && !something_slides) {
@@ -130,7 +133,13 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   // the rounding of these large forces is no motion
   negated_slip_rates(k, segment, rates);
   noise.fill(kSlipRateRounding * motion_size(k, k + 2, segment));
-  const HoldingForces::Answer correction = holding_.hold(rates, noise);
+  HoldingForces::Answer correction = holding_.hold(rates, noise);
+  if (correction.told_apart && !held.told_apart) {  // T are then those of the motion, told apart as well
+    held = holding_.hold_motion(free, own, {});
+    take();
+    negated_slip_rates(k, segment, rates);
+    correction = holding_.hold(rates, noise);
+  }
   watch_held(k, rates, noise, correction);
   const HoldingForces::Answer now = motion(k, segment);
   set_motion(k, {{}, now.x + correction.x, now.y + correction.y, now.phi + correction.phi}, segment);

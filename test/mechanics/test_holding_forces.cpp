@@ -94,6 +94,21 @@ TEST(HoldingForces, follow_from_the_motion_that_they_hold) {
   EXPECT_NEAR(held.phi, 0.0, 1e-15 * moment / inertia);
 }
 
+// What the levers differ by is rounding of V' of the free part, but not of what is left of it: T that hold the one hold
+// the other.
+TEST(HoldingForces, of_nearly_equal_levers_are_those_of_the_motion_that_is_left) {
+  const double inertia = 1e-6, arm_1 = 80.0, arm_2 = 80.0 + 4e-5, pull = 2.0, moment = 300.0;
+  const System system = part(inertia);
+  const HoldingForces holding = holding_of(system, {{{1.0, 0.0, arm_1}, {1.0, 0.0, arm_2}}}, 2);
+  const HoldingForces::Answer held = holding.hold_motion({{}, pull, 0.0, moment / inertia}, {});
+  EXPECT_TRUE(held.told_apart);
+  EXPECT_NEAR(held.x, 0.0, 1e-9);
+  EXPECT_NEAR(held.phi, 0.0, 1e-9);
+  const double force_1 = (arm_2 * pull - moment) / (arm_1 - arm_2), force_2 = -pull - force_1;
+  EXPECT_NEAR(held.force[0], force_1, 1e-6 * std::abs(force_1));
+  EXPECT_NEAR(held.force[1], force_2, 1e-6 * std::abs(force_2));
+}
+
 TEST(HoldingForces, hold_a_motion_that_V_has_rates_of_its_own_beside) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> number(-1.0, 1.0);

@@ -77,6 +77,20 @@ initial: {x: 0, y: 1, phi: 0.08, vx: 0, vy: 0, omega: 0}
 trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
 solver: {name: event, tolerance: 4e-13, step_limit: 1000}
 )"},
+      {"corners_of_nearly_one_lever", R"(
+part: {half_width: 0.002, base_distance: 358.6, inertia: 1e-06}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 4}
+base: {stiffness: {x: 1, y: 1}, damping: {x: 0, y: 3}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 2, frequency: 5e+03, phase: -2, direction: x, waveform: sine}
+initial: {x: 0, y: 358.3, phi: -0.04, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.003, aligned_depth: 0}
+solver: {name: event, tolerance: 4e-11, step_limit: 1000}
+)"},
       {"edge_and_corner_of_one_lever", R"(
 part: {half_width: 0.7746949918684889, base_distance: 0.22072147874001335, inertia: 0.32771491721763474}
 slot: {clearance: 0.007322686662406191}
@@ -473,6 +487,20 @@ TEST_P(UnequalMobility, is_mirrored_in_the_mirrored_scene) {
   const State& q = one.final_state;
   const double size = 1.0 + std::abs(q.x) + std::abs(q.y) + std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega);
   EXPECT_LE(test::distance(q, test::mirrored(other.final_state)), 1e-5 * size);
+}
+
+// Two corners of levers that differ by 5e-7 can hold the part only by T of 4e6 in opposite directions, far beyond f N.
+TEST(UnequalMobilityOf, friction_makes_the_motion_it_holds) {
+  for (const test::NamedScene& scene : cases()) {
+    if (scene.name != "corners_of_nearly_one_lever") continue;
+    const Scene corners = test::scene_of(scene.text);
+    const TrialResult result = test::run(corners);
+    EXPECT_EQ(result.outcome, Outcome::time_limit) << result.failure;
+    ASSERT_TRUE(result.energy);
+    EXPECT_LE(result.energy->residual, 10.0 * corners.solver.tolerance);
+    return;
+  }
+  FAIL() << "no such scene";
 }
 
 /// Its tolerance is too wide for the laws to hold to the digit.
