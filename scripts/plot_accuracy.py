@@ -33,7 +33,7 @@ def read_lines(path):
     return lines, floor
 
 
-def draw(lines, floor, title, target):
+def draw(lines, floor, title, target, kind):
     figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
     for solver, points in lines.items():
         colour, mark = STYLES.get(solver, ("#000000", "."))
@@ -46,19 +46,20 @@ def draw(lines, floor, title, target):
     axes.set_title(title)
     axes.grid(True, which="major", color="0.88", linewidth=0.6)
     axes.legend(frameon=False)
-    figure.savefig(target, dpi=160, format="png")
+    figure.savefig(target, dpi=160, format=kind, metadata={"Date": None} if kind == "svg" else None)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("table", help="CSV file of `align accuracy`")
-    parser.add_argument("picture", help="PNG file to write")
+    parser.add_argument("picture", help="file to write")
+    parser.add_argument("--format", default="png", help="png, svg or pdf")
     parser.add_argument("--title", default="", help="title of the figure")
     arguments = parser.parse_args()
     lines, floor = read_lines(arguments.table)
     if not lines:
         sys.exit(arguments.table + ": holds no run")
-    draw(lines, floor, arguments.title, arguments.picture)
+    draw(lines, floor, arguments.title, arguments.picture, arguments.format)
 
 
 if __name__ == "__main__":

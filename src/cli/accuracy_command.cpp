@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/picture_format.h"
 #include "cli/scene_path.h"
 #include "cli/script.h"
 #include "model/scene_loader.h"
@@ -128,6 +130,7 @@ int run_accuracy(const Options& options) {
   YAML::Node tree = read_yaml_file(file);
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
   const Scene scene = load_scene(tree, file);
+  const std::string format = options.plot.empty() ? "" : picture_format("--plot", options.plot);
   std::unique_ptr<OutputPath> csv, picture;
   if (!options.csv.empty()) csv = std::make_unique<OutputPath>("--csv", options.csv);
   if (!options.plot.empty()) picture = std::make_unique<OutputPath>("--plot", options.plot);
@@ -162,7 +165,8 @@ int run_accuracy(const Options& options) {
   if (picture) {
     const std::string table = picture->temporary() + ".csv";
     write_csv(table, table, runs, reference);
-    require_script("plot_accuracy.py", {table, picture->temporary(), "--title", scene.name}, "--plot");
+    require_script("plot_accuracy.py", {table, picture->temporary(), "--format", format, "--title", scene.name},
+                   "--plot");
     std::filesystem::remove(table);
     picture->commit();
   }
@@ -184,8 +188,10 @@ std::function<int()> set_up_accuracy(CLI::App& app) {
   app.add_option("--set", options->settings, "Give a key of the scene another value; can be repeated")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--csv", options->csv, "Write the table to this file")->type_name("FILE");
-  app.add_option("--plot", options->plot, "Draw error against time, one line per solver")->type_name("FILE.png");
+  app.add_option("--csv", options->csv, "Write the table to this file")->check(file_name())->type_name("FILE");
+  app.add_option("--plot", options->plot, "Draw error against time, one line per solver: .png, .svg or .pdf")
+      ->check(file_name())
+      ->type_name("FILE");
   return [options] { return run_accuracy(*options); };
 }
 

@@ -13,10 +13,12 @@
 
 #include "cli/calibration_log.h"
 #include "cli/calibration_report.h"
+#include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
 #include "cli/scene_path.h"
+#include "model/scene_loader.h"
 #include "study/calibration.h"
 #include "study/calibration_file.h"
 
@@ -58,8 +60,16 @@ class ProgressLines {
   Clock::time_point begin_ = Clock::now(), next_ = begin_;
 };
 
+Calibration load(const std::string& file) {
+  try {
+    return load_calibration(file);
+  } catch (const SceneError& refusal) {
+    throw UsageError(std::string("the calibration or its facts are refused:\n") + refusal.what());
+  }
+}
+
 int run_calibrate(const Options& options) {
-  const Calibration calibration = load_calibration(options.file);
+  const Calibration calibration = load(options.file);
   std::unique_ptr<OutputPath> report;
   if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);
 
@@ -116,9 +126,11 @@ std::function<int()> set_up_calibrate(CLI::App& app) {
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   app.add_option("--report", options->report, "Write the report (Markdown) to this file instead of stdout")
+      ->check(file_name())
       ->type_name("FILE");
-  CLI::Option* log =
-      app.add_option("--log", options->log, "Write every answer to this file, as it is known")->type_name("FILE");
+  CLI::Option* log = app.add_option("--log", options->log, "Write every answer to this file, as it is known")
+                         ->check(file_name())
+                         ->type_name("FILE");
   app.add_flag("--resume", options->resume, "Go on with the answers that the log has")->needs(log);
   return [options] { return run_calibrate(*options); };
 }

@@ -12,18 +12,21 @@ using nlohmann::json;
 
 constexpr int kNameWidth = 64;
 
-std::string number(double value) {
+std::string number(double value, int digits = 4) {
   if (std::isnan(value)) return "-";
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 
+/// As the facts file gives it.
+std::string limit(double bound) { return number(bound, 6); }
+
 std::string bound_text(const Bound& bound) {
   if (bound.at_least && bound.at_most)
-    return *bound.at_least == *bound.at_most ? "= " + number(*bound.at_least)
-                                             : number(*bound.at_least) + " to " + number(*bound.at_most);
-  return bound.at_least ? ">= " + number(*bound.at_least) : "<= " + number(*bound.at_most);
+    return *bound.at_least == *bound.at_most ? "= " + limit(*bound.at_least)
+                                             : limit(*bound.at_least) + " to " + limit(*bound.at_most);
+  return bound.at_least ? ">= " + limit(*bound.at_least) : "<= " + limit(*bound.at_most);
 }
 
 /// 5 and 95 % over resampled samples.

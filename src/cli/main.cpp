@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,23 @@ int fail(int status, const char* message) {
   return status;
 }
 
+/// What was printed, help or version, has arrived.
+int told(int status) {
+  std::cout << std::flush;
+  if (!std::cout) throw OutputError("stdout", "the help is lost");
+  return status;
+}
+
+/// Throws UsageError for a first word that should be a command and is none.
+void check_command(const char* word) {
+  std::string names;
+  for (const Command& command : kCommands) {
+    if (command.name == std::string(word)) return;
+    names += (names.empty() ? "" : ", ") + std::string(command.name);
+  }
+  throw UsageError(std::string(word) + ": there is no such command; there are " + names);
+}
+
 int run(int argc, char** argv) {
   CLI::App app(kDescription, "align");
   app.footer(kFooter);
@@ -60,10 +78,11 @@ int run(int argc, char** argv) {
     runners.emplace_back(subcommand, command.set_up(*subcommand));
   }
 
+  if (argc > 1 && argv[1][0] != '-') check_command(argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) return told(app.exit(error));
     std::string command = "align";
     for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
     std::fprintf(stderr, "align: %s\nTry `%s --help`.\n", error.what(), command.c_str());
@@ -72,8 +91,8 @@ int run(int argc, char** argv) {
   for (const auto& [subcommand, runner] : runners) {
     if (subcommand->parsed()) return runner();
   }
-  std::fputs(app.help().c_str(), stdout);
-  return kExitRan;
+  std::cout << app.help();
+  return told(kExitRan);
 }
 
 }  // namespace

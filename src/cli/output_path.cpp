@@ -1,5 +1,6 @@
 #include "cli/output_path.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,7 +20,17 @@ namespace fs = std::filesystem;
   throw UsageError(option + ": " + path + ": cannot be written: " + reason);
 }
 
+/// True when the path names the file, device or pipe that the descriptor leads to.
+bool leads_to(int descriptor, const std::string& path) {
+  struct stat stream {
+  }, file{};
+  return fstat(descriptor, &stream) == 0 && stat(path.c_str(), &file) == 0 && stream.st_dev == file.st_dev &&
+         stream.st_ino == file.st_ino;
+}
+
 }  // namespace
+
+bool is_stdout(const std::string& path) { return leads_to(STDOUT_FILENO, path); }
 
 OutputPath::OutputPath(const std::string& option, const std::string& path, Unfinished unfinished)
     : path_(path), target_(path), unfinished_(unfinished) {
@@ -33,6 +44,8 @@ OutputPath::OutputPath(const std::string& option, const std::string& path, Unfin
     temporary_ = target_;
     return;
   }
+  if (exists && (is_stdout(path) || leads_to(STDERR_FILENO, path)))
+    refuse(option, path, "it is the file that the command's own output goes to");
   if (exists) {
     const fs::path resolved = fs::canonical(path, error);
     if (!error) target_ = resolved.string();

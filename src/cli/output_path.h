@@ -5,6 +5,9 @@
 
 namespace vibratory_alignment {
 
+/// True when the path names the file, device or pipe that stdout goes to, which then has to be free of anything else.
+bool is_stdout(const std::string& path);
+
 /// What becomes of a file that has not been committed.
 enum class Unfinished { removed, kept };
 
@@ -14,7 +17,7 @@ class OutputPath {
  public:
   /// Creates the temporary file, so that a path that cannot be written is found out before anything runs; one that is
   /// there is emptied, unless such files are kept.
-  /// Throws UsageError that names `option`, the path and the reason.
+  /// Throws UsageError that names `option`, the path and the reason; also for the file that stdout or stderr go to.
   OutputPath(const std::string& option, const std::string& path, Unfinished unfinished = Unfinished::removed);
   ~OutputPath();
   OutputPath(const OutputPath&) = delete;

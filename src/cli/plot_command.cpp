@@ -1,6 +1,5 @@
 #include "cli/plot_command.h"
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,12 +12,11 @@
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/picture_format.h"
 #include "cli/script.h"
 
 namespace vibratory_alignment {
 namespace {
-
-constexpr std::array<const char*, 3> kFormats = {"png", "svg", "pdf"};
 
 constexpr char kFooter[] = R"(Examples:
   align plot run.csv run.png                 of `align trial --csv run.csv`
@@ -36,29 +34,17 @@ struct Options {
   bool si = false;
 };
 
-/// The ending of the picture's name, which says how it is written.
-std::string format_of(const std::string& picture) {
-  const std::string ending = std::filesystem::path(picture).extension().string();
-  std::string allowed;
-  for (const char* format : kFormats) {
-    if (ending == std::string(".") + format) return format;
-    allowed += (allowed.empty() ? "." : ", .") + std::string(format);
-  }
-  throw UsageError("PICTURE: " + picture + ": the name must end in one of " + allowed);
-}
-
 void check_readable(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw UsageError("TRIAL: " + path + ": is a directory");
   errno = 0;
   if (!std::ifstream(path)) throw UsageError("TRIAL: " + path + ": cannot be read: " + std::strerror(errno));
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending != ".csv" && ending != ".bag")
-    throw UsageError("TRIAL: " + path + ": the name must end in .csv or .bag");
+  if (ending != ".csv" && ending != ".bag") throw UsageError("TRIAL: " + path + ": the name must end in .csv or .bag");
 }
 
 int run_plot(const Options& options) {
-  const std::string format = format_of(options.picture);
+  const std::string format = picture_format("PICTURE", options.picture);
   check_readable(options.trial);
   if (!options.node.empty() && std::filesystem::path(options.trial).extension() != ".bag")
     throw UsageError("--node: only a bag has nodes");
@@ -86,7 +72,8 @@ std::function<int()> set_up_plot(CLI::App& app) {
   app.add_option("PICTURE", options->picture, "The picture to write: .png, .svg or .pdf")->required();
   app.add_option("--node", options->node, "Which aligner of a bag that has several")->type_name("NAME");
   app.add_flag("--si", options->si,
-               "SI units: of a bag whose scene has scales; of a CSV\nfile whose scene has `units: si`");
+               "SI units: of a bag whose scene has scales; of a CSV\nfile whose scene has `units: si`, which the file "
+               "does\nnot tell: of another the numbers would be wrong");
   app.add_option("--title", options->title, "Title of the picture; else the outcome, or the file's name")
       ->type_name("TEXT");
   return [options] { return run_plot(*options); };

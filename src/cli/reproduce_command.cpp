@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/figure_files.h"
 #include "cli/interrupt.h"
@@ -54,7 +55,8 @@ struct Options {
   bool check = false, quick = false, no_pictures = false;
 };
 
-/// Only the figures that are asked for, and the facts that are measured on their studies alone. Throws UsageError.
+/// Only the figures that are asked for, and the facts that are measured on their studies, be it among others. Throws
+/// UsageError.
 void keep_figures(FactBook& book, const std::vector<std::string>& asked) {
   if (asked.empty()) return;
   std::set<std::string> studies;
@@ -70,12 +72,12 @@ void keep_figures(FactBook& book, const std::vector<std::string>& asked) {
     if (studies.insert(found->measure.table.study).second) figures.push_back(*found);
   }
   book.figures = figures;
-  const auto measured_elsewhere = [&](const Fact& fact) {
+  const auto is_not_shown = [&](const Fact& fact) {
     std::vector<TableName> tables;
     for (const FactMeasure& measure : fact.measures) collect_tables(measure.measure, tables);
-    return std::any_of(tables.begin(), tables.end(), [&](const TableName& t) { return studies.count(t.study) == 0; });
+    return std::none_of(tables.begin(), tables.end(), [&](const TableName& t) { return studies.count(t.study) > 0; });
   };
-  book.facts.erase(std::remove_if(book.facts.begin(), book.facts.end(), measured_elsewhere), book.facts.end());
+  book.facts.erase(std::remove_if(book.facts.begin(), book.facts.end(), is_not_shown), book.facts.end());
 }
 
 FactSuite load(const Options& options) {
@@ -165,11 +167,13 @@ std::function<int()> set_up_reproduce(CLI::App& app) {
   app.add_flag("--quick", options->quick, "A quick look: fewer points, fewer samples");
   app.add_flag("--no-pictures", options->no_pictures, "Write the data of the figures only");
   app.add_option("--output", options->output, "Folder for the files, made if it is not there.\nDefault: reproduction")
+      ->check(file_name())
       ->type_name("DIR");
   app.add_option("--threads", options->threads, "Trials that run at a time. Default: one for each processor")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   app.add_option("--facts", options->facts, "Another facts file than the one that comes with the package")
+      ->check(file_name())
       ->type_name("FILE");
   app.add_option("--set", options->settings,
                  "Give a key of the scenes another value in all studies, as for\n`align trial`; can be repeated")

@@ -11,8 +11,10 @@
 #include <thread>
 #include <vector>
 
+#include "cli/command.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
+#include "cli/output_path.h"
 #include "cli/progress_bar.h"
 #include "cli/row_text.h"
 #include "cli/scene_path.h"
@@ -112,7 +114,7 @@ std::string progress_text(const SweepSummary& summary, const Run& run, std::size
 /// Runs what is left of the sweep.
 Run run(const Study& study, const Options& options, const Shard& shard, SweepCsv* csv, SweepSummary& summary) {
   const InterruptGuard interrupt;
-  ProgressBar bar(stdout_is_terminal() && (csv == nullptr || !csv->is_direct()));
+  ProgressBar bar(stdout_is_terminal() && !is_stdout(options.csv));
   const std::size_t count = shard_size(shard, trial_count(study));
   Run result;
   SweepOptions sweep;
@@ -169,7 +171,7 @@ int run_command(const Options& options) {
     return 128 + result.signal;
   }
   if (csv) csv->finish();
-  std::ostream& out = csv && csv->is_direct() ? std::cerr : std::cout;
+  std::ostream& out = is_stdout(options.csv) ? std::cerr : std::cout;
   out << report(study, head, summary, result) << std::flush;
   if (!out) throw OutputError("stdout", "the summary is lost");
   return kExitRan;
@@ -185,7 +187,7 @@ std::function<int()> set_up_sweep(CLI::App& app) {
   app.add_option("--threads", options->threads, "Trials that run at a time. Default: one for each processor")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  app.add_option("--csv", options->csv, "Write one row a trial to this file")->type_name("FILE");
+  app.add_option("--csv", options->csv, "Write one row a trial to this file")->check(file_name())->type_name("FILE");
   app.add_flag("--resume", options->resume,
                "Go on with the file of a sweep that ended early, or begin it if\nthere is none; nothing is run twice");
   app.add_option("--shard", options->shard, "Run part I of N of the trials alone: I, I + N, I + 2N, ...")

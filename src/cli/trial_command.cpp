@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/command.h"
 #include "cli/csv_writer.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
@@ -72,7 +73,7 @@ struct TrialOptions {
 std::string check_positive(const std::string& text) {
   const std::optional<double> value = parse_number(text);
   if (value && *value > 0.0 && has_sane_size(*value)) return {};
-  return text + " is not allowed: give a number > 0";
+  return text + " is not allowed: give a number > 0, from 1e-100 to 1e100";
 }
 
 /// Accepts what a scene accepts as solver.accuracy.
@@ -165,6 +166,7 @@ void check_outputs(const TrialOptions& options, const std::string& scene_file) {
   if (!options.csv.empty() && same(options.csv, options.bag)) {
     throw UsageError(options.csv + ": --csv and --bag name the same file");
   }
+  if (options.json && is_stdout(options.csv)) throw UsageError("--json: stdout has the rows of --csv");
 }
 
 /// Dimensionless: --sample, or a twentieth of the period of the fastest excitation.
@@ -262,13 +264,15 @@ int run_trial(const TrialOptions& options) {
   SimulationOptions simulation_options;
   if (options.until) simulation_options.until = *options.until / time_unit;
   const double end = simulation_options.until.value_or(scene.trial.time_limit);
-  const double interval = sample_interval(options, scene, end);
+  const bool sampled = !options.csv.empty() || !options.bag.empty();
+  const double interval = sampled ? sample_interval(options, scene, end) : end;
   Simulation simulation = make_simulation(scene, simulation_options);
   Recorder recorder(options, scene);
 
+  const bool rows_on_stdout = is_stdout(options.csv);
   int signal = 0;
   {
-    ProgressBar progress(!options.json && stdout_is_terminal());
+    ProgressBar progress(!options.json && !rows_on_stdout && stdout_is_terminal());
     signal = simulate(simulation, recorder, interval, end, progress);
   }
   if (signal != 0) {
@@ -277,10 +281,11 @@ int run_trial(const TrialOptions& options) {
     return 128 + signal;
   }
   const TrialResult result = simulation.result();
+  std::ostream& out = rows_on_stdout ? std::cerr : std::cout;
   recorder.finish(result);
 
-  std::cout << (options.json ? json_report(result, scene) + "\n" : summary(result, scene)) << std::flush;
-  if (!std::cout) throw OutputError("stdout", "the report is lost");
+  out << (options.json ? json_report(result, scene) + "\n" : summary(result, scene)) << std::flush;
+  if (!out) throw OutputError("stdout", "the report is lost");
   if (result.outcome != Outcome::failed) return kExitRan;
   std::fprintf(stderr, "align: the trial failed at t = %.6g: %s\n", result.final_time * time_unit,
                result.failure.c_str());
@@ -318,8 +323,11 @@ std::function<int()> set_up_trial(CLI::App& app) {
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
   app.add_flag("--json", options->json, "Print one JSON object instead of the summary, and nothing else");
-  app.add_option("--csv", options->csv, "Write the motion and the forces to this file")->type_name("FILE");
+  app.add_option("--csv", options->csv, "Write the motion and the forces to this file")
+      ->check(file_name())
+      ->type_name("FILE");
   app.add_option("--bag", options->bag, "Write a ROS bag with the topics of aligner_node; needs no ROS master")
+      ->check(file_name())
       ->type_name("FILE");
   app.add_option("--sample", options->sample,
                  "Time between two rows of the CSV file or messages of the bag. Changes\n"

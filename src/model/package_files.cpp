@@ -85,6 +85,7 @@ std::vector<std::string> shipped(const PackageFileKind& kind) {
   std::vector<std::string> names;
   const fs::path directory = directory_of(kind);
   if (directory.empty()) return names;
+  if (kind.only != nullptr) return {kind.only};
   std::error_code error;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory, error)) {
     if (entry.path().extension() != ".yaml") continue;

@@ -8,13 +8,14 @@ namespace vibratory_alignment {
 
 /// A kind of file that comes with the package.
 struct PackageFileKind {
-  const char* folder;    ///< below config/
-  const char* singular;  ///< as messages name it
+  const char* folder;          ///< below config/
+  const char* singular;        ///< as messages name it
+  const char* only = nullptr;  ///< the one file of the kind, where the folder has others
 };
 
 constexpr PackageFileKind kSceneFile = {"scenes", "scene"};
 constexpr PackageFileKind kStudyFile = {"studies", "study"};
-constexpr PackageFileKind kFactsFile = {"paper", "facts file"};
+constexpr PackageFileKind kFactsFile = {"paper", "facts file", "facts"};
 
 /// what() is the message for the user.
 class NoSuchFile : public std::runtime_error {

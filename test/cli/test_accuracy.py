@@ -50,6 +50,8 @@ class AccuracyTest(AlignTestCase):
         self.assert_refused(["accuracy", self.path("none.yaml")], "none.yaml")
         self.assert_refused(["accuracy", self.scene(), "--csv", self.path("no/such/a.csv")], "--csv", "no/such/a.csv")
 
+        self.assert_refused(["accuracy", self.scene(), "--plot", self.path("a.jpg")], "--plot", "a.jpg", ".png, .svg, .pdf")
+
     def test_a_refused_study_leaves_no_file(self):
         path = self.path("a.csv")
         self.assert_refused(["accuracy", self.scene(), "--set", "part.half_width=-1", "--csv", path], "half_width")

@@ -103,6 +103,19 @@ class ReproduceTest(AlignTestCase):
         self.assertTrue(os.path.exists(self.path("out/curve.csv")))
         self.assertFalse(os.path.exists(self.path("out/motion.csv")))
 
+    def test_a_figure_brings_the_facts_that_other_studies_belong_to_as_well(self):
+        self.write("more.yaml", STUDY.replace("small.yaml", "scene.yaml"))
+        two_studies = """      - {name: other share, study: more, of: impact, rows: {take: share}, at_least: 1, scale: 1}
+figures:
+  - {name: other, title: Other, study: more}
+"""
+        facts = FACTS.replace("figures:\n", two_studies)
+        for figure, ids in (("curve", ["A", "B"]), ("other", ["B"])):
+            process = self.reproduce(figure, "--no-pictures", facts=facts)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertEqual([fact["id"] for fact in self.ledger()], ids)
+        self.assertEqual(len(self.ledger()[0]["measures"]), 2)
+
     def test_refuses_what_it_does_not_know(self):
         process = self.reproduce("fig9")
         self.assertEqual(process.returncode, 2)

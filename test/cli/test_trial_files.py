@@ -83,6 +83,32 @@ class CsvTest(AlignTestCase):
         self.assertEqual(process.stderr.splitlines()[0], ",".join(COLUMNS))
 
 
+    def test_leaves_the_report_to_stderr_when_it_is_stdout(self):
+        process = self.align("trial", self.scene(), "--csv", "/dev/stdout", "--sample", "1")
+        self.assertEqual(process.returncode, 0)
+        lines = process.stdout.splitlines()
+        self.assertEqual(lines[0], ",".join(COLUMNS))
+        self.assertEqual({line.count(",") for line in lines}, {len(COLUMNS) - 1})
+        self.assertIn("Outcome", process.stderr)
+        self.assert_refused(["trial", self.scene(), "--json", "--csv", "/dev/stdout"], "--json", "--csv")
+
+    def test_is_not_the_file_that_the_report_goes_to(self):
+        for name in ("/dev/stdout", "out.txt"):
+            self.write("out.txt", "before\n")
+            with self.subTest(name), open(self.path("out.txt"), "a") as out:
+                process = self.align("trial", self.scene(), "--csv", name, stdout=out)
+                self.assertEqual(process.returncode, 2)
+                self.assertIn("--csv: %s: cannot be written" % name, process.stderr)
+                with open(self.path("out.txt")) as file:
+                    self.assertEqual(file.read(), "before\n")
+
+    def test_has_a_name(self):
+        # what a shell makes of a variable that is not set
+        for arguments in (["trial", "--csv"], ["trial", "--bag"], ["accuracy", "--plot"], ["sweep", "--csv"]):
+            with self.subTest(arguments):
+                self.assert_refused([arguments[0], self.scene(), arguments[1], ""], arguments[1], "empty")
+
+
 class LostFileTest(AlignTestCase):
     def test_full_disk(self):
         for option in ("--csv", "--bag"):

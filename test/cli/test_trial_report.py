@@ -149,6 +149,16 @@ class GeneralTest(AlignTestCase):
         self.assertEqual(process.returncode, 1)
         self.assertIn("stdout", process.stderr)
 
+    def test_lost_help_is_an_error(self):
+        for arguments in ([], ["--version"], ["trial", "--help"]):
+            with self.subTest(arguments), open("/dev/full", "w") as full:
+                process = self.align(*arguments, stdout=full)
+                self.assertEqual(process.returncode, 1)
+                self.assertIn("stdout", process.stderr)
+
+    def test_refuses_a_command_that_there_is_not(self):
+        self.assert_refused(["trail", "fig2"], "trail", "there is no such command", "trial")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

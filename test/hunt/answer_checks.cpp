@@ -24,10 +24,10 @@ double energy_terms(const Scene& scene, const EnergyLedger& e) {
   return std::abs(e.initial) + std::abs(e.final) + e.exchanged + std::abs(scene.weight * scene.part.base_distance);
 }
 
-double difference(const System& s, const Landmark& a, const Landmark& b) {
+double difference(const System& s, double fastest, const Landmark& a, const Landmark& b) {
   const State &p = a.state, &q = b.state;
   const double size = std::abs(p.x) + std::abs(p.y) + s.half_width + s.base_distance;
-  const double speed = std::abs(p.vx) + std::abs(p.vy) + std::abs(p.omega) * (s.half_width + s.base_distance) + 1e-3;
+  const double speed = fastest + 1e-3;
   const double place = std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.phi - q.phi) * s.half_width});
   const double rate =
       std::max({std::abs(p.vx - q.vx), std::abs(p.vy - q.vy), std::abs(p.omega - q.omega) * s.half_width});
@@ -82,12 +82,13 @@ std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b) {
 double difference(const System& system, const Trace& a, const Trace& b) {
   const bool refused = a.result.outcome == Outcome::failed || b.result.outcome == Outcome::failed;
   if (!refused && (a.touches.size() != b.touches.size() || a.all_touches != b.all_touches)) return INFINITY;
+  const double fastest = std::max(a.fastest, b.fastest);
   double largest = 0.0;
   for (std::size_t i = 0; i < std::min(a.touches.size(), b.touches.size()); ++i)
-    largest = std::max(largest, difference(system, a.touches[i], b.touches[i]));
+    largest = std::max(largest, difference(system, fastest, a.touches[i], b.touches[i]));
   if (refused || !a.all_touches) return largest;
   if (a.result.outcome != b.result.outcome) return INFINITY;
-  return std::max(largest, difference(system, {a.result.final_time, a.result.final_state},
+  return std::max(largest, difference(system, fastest, {a.result.final_time, a.result.final_state},
                                       {b.result.final_time, b.result.final_state}));
 }
 

@@ -26,8 +26,8 @@ std::optional<Fault> check_energy(const Scene& scene, const Trace& trace);
 /// Two answers are the same to the last bit.
 std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b);
 
-/// Largest difference of two traces over touches and end, relative to the sizes of the motion and its speeds; infinite
-/// where one of them touches or ends otherwise.
+/// Largest difference of two traces over touches and end, relative to the sizes of the motion and its fastest speed;
+/// infinite where one of them touches or ends otherwise.
 double difference(const System& system, const Trace& a, const Trace& b);
 
 /// The trace of the mirrored scene as it should look.

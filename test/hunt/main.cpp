@@ -29,7 +29,7 @@ constexpr char kFooter[] = R"(Examples:
   hunt                                            10000 ordinary scenes
   hunt --range wild --count 1000000 --threads 2 --keep found
   hunt --range wild --from 1234 --count 1         one seed again
-  hunt --scene found/wild_1234_mirror.yaml        a scene that was kept
+  hunt --range wild --scene found/wild_1234_mirror.yaml      a scene that was kept
   hunt --range wild --show 1234                   print the scene of a seed
 
 Exit status: 0 every invariant held; 1 some did not; 2 bad usage; 130 interrupted, with the summary so far.)";

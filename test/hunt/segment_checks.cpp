@@ -15,10 +15,11 @@ using test::touch_point;
 using test::TouchPoint;
 
 constexpr double kDigits = 1e-13;
-constexpr double kTimeDigits = 4e-16;
+constexpr double kTimeDigits = 4e-16, kPlaceDigits = 4e-16;
 constexpr double kSlipErrors = 1e3;        ///< V also holds what T was wrong by in the segments before
 constexpr double kForceDigits = 1e-15;     ///< forces that are in balance
 constexpr double kFastestRecovery = 1e12;  ///< a base that recovers at this rate is taken to do so at once
+constexpr double kWorstCut = 1e-4;         ///< part of its terms that a force's series may leave out
 constexpr double kSeriesPoints[] = {0.0, 0.13, 0.5, 0.87, 1.0};
 constexpr int kFlightPoints = 20;  ///< a leap in flight is long
 
@@ -27,6 +28,13 @@ double magnitude_at(const Series& series, int order, double t) {
   double value = 0.0;
   for (int k = order; k >= 0; --k) value = value * t + std::abs(series[static_cast<std::size_t>(k)]);
   return value;
+}
+
+/// What a series leaves out: less than its last two terms, and than kWorstCut of all.
+double cut_of(const Series& series, int order, double t) {
+  const auto size = [&](int k) { return std::abs(series[static_cast<std::size_t>(k)]) * std::pow(t, k); };
+  const double last = order > 0 ? size(order - 1) + size(order) : 0.0;
+  return std::min(last, kWorstCut * magnitude_at(series, order, t));
 }
 
 /// Lengths that a depth is the difference of; the last digit of a tilt of many turns moves the corners, too.
@@ -42,6 +50,12 @@ double speed_of(const System& s, const Segment& g, const State& q) {
   return size(g.vx, q.vx) + size(g.vy, q.vy) + size(g.omega, q.omega) * length_of(s, q);
 }
 
+/// Fastest of the gripper's own rates, at which the last digit of a place becomes a speed.
+double gripper_rate(const System& s) {
+  const auto square = [](const Axis& axis) { return axis.stiffness * axis.inverse_inertia; };
+  return std::sqrt(std::max({square(s.x), square(s.y), square(s.phi)}));
+}
+
 /// Largest acceleration of the contact point for a force of one.
 double mobility(const System& s, const TouchPoint& p) {
   return s.x.inverse_inertia + s.y.inverse_inertia + (p.rx * p.rx + p.ry * p.ry) * s.phi.inverse_inertia;
@@ -49,8 +63,8 @@ double mobility(const System& s, const TouchPoint& p) {
 
 class SegmentCheck {
  public:
-  SegmentCheck(const System& system, double tolerance, const Segment& segment)
-      : system_(system), tolerance_(tolerance), segment_(segment) {}
+  SegmentCheck(const System& system, double tolerance, double fastest, const Segment& segment)
+      : system_(system), tolerance_(tolerance), fastest_(fastest), segment_(segment) {}
 
   std::optional<Fault> at(double t) {
     t_ = t;
@@ -88,7 +102,10 @@ class SegmentCheck {
 
     const double speed = speed_of(system_, segment_, state_), digits = kDigits + kCut * tolerance_;
     const double n_terms = magnitude_at(contact.normal_force, order, t_);
-    const double n_noise = p.stiffness * depth_noise() + p.damping * digits * speed + (kDigits + tolerance_) * n_terms;
+    const double rate_noise =
+        digits * speed + kDigits * fastest_ + kPlaceDigits * gripper_rate(system_) * length_of(system_, state_);
+    const double n_noise = p.stiffness * depth_noise() + p.damping * rate_noise + (kDigits + tolerance_) * n_terms +
+                           cut_of(contact.normal_force, order, t_);
     if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
     if (std::abs(n - p.normal_force) > 10.0 * n_noise)
       return fault(Invariant::base_pushes, "N - (k d + h d')", n - p.normal_force);
@@ -148,7 +165,7 @@ class SegmentCheck {
   static constexpr double kCut = 1e-2;  ///< part of the tolerance that a step may be wrong by
 
   const System& system_;
-  double tolerance_;
+  double tolerance_, fastest_;
   const Segment& segment_;
   double t_ = 0.0;
   State state_;
@@ -156,8 +173,8 @@ class SegmentCheck {
 
 }  // namespace
 
-std::optional<Fault> check_segment(const System& system, double tolerance, const Segment& segment) {
-  SegmentCheck check(system, tolerance, segment);
+std::optional<Fault> check_segment(const System& system, double tolerance, double fastest, const Segment& segment) {
+  SegmentCheck check(system, tolerance, fastest, segment);
   if (segment.flight != nullptr) {
     for (int i = 0; i <= kFlightPoints; ++i)
       if (auto found = check.at(segment.duration * i / kFlightPoints)) return found;

@@ -13,8 +13,9 @@
 
 namespace vibratory_alignment::hunt {
 
-/// The first breach in the segment, at its ends and some instants between; `tolerance` is the solver's.
-std::optional<Fault> check_segment(const System& system, double tolerance, const Segment& segment);
+/// The first breach in the segment, at its ends and some instants between. `tolerance` is the solver's, `fastest` the
+/// largest speed of the part's points so far.
+std::optional<Fault> check_segment(const System& system, double tolerance, double fastest, const Segment& segment);
 
 /// Energy that the last digits of places in this segment are worth, and the creep of what sticks for the last
 /// digits of its forces: what a ledger cannot know.

@@ -8,6 +8,7 @@
 #include "../support/scenes.h"
 #include "hunt.h"
 #include "random_scene.h"
+#include "verdict.h"
 
 namespace vibratory_alignment::hunt {
 namespace {
@@ -31,6 +32,16 @@ TEST(Hunt, gives_the_same_bits_in_any_number_of_threads) {
     EXPECT_EQ(alone.outcomes, together.outcomes);
     EXPECT_EQ(alone.scenes, 60);
     EXPECT_EQ(together.scenes, 60);
+  }
+}
+
+// A force whose series is cut off where it hardly matters to the motion, rates that are compared while the part is at
+// rest, and a force that damping makes of the last digits of a fast motion and of a stiff gripper.
+TEST(Hunt, does_not_take_the_digits_of_an_answer_for_faults) {
+  for (const std::uint64_t seed : {532823u, 582117u, 682928u}) {
+    const Verdict verdict = judge(random_scene(seed, Range::wild), Range::wild);
+    EXPECT_FALSE(verdict.sensitive) << seed;
+    for (const Fault& fault : verdict.faults) ADD_FAILURE() << "seed " << seed << ": " << fault.detail;
   }
 }
 
@@ -93,7 +104,7 @@ TEST(Judge, passes_a_sound_scene_and_refuses_one_without_start) {
 // Several contacts nearly coincide, and rounding decides how many of them hold; so do starts that differ in the last
 // digits, not every pair of them.
 TEST(Judge, tells_rounding_from_a_broken_mirror) {
-  for (const std::uint64_t seed : {62272u, 65297u, 139067u}) {
+  for (const std::uint64_t seed : {65297u, 516891u, 642213u}) {
     const Verdict verdict = judge(random_scene(seed, Range::wild), Range::wild);
     EXPECT_TRUE(verdict.faults.empty()) << seed;
     EXPECT_TRUE(verdict.sensitive) << seed;

@@ -33,7 +33,7 @@ class DoctoredSegment : public testing::Test {
   Segment segment_ = segment_where(scene_, slides_under_load);
 
   void expect_broken(Invariant invariant) const {
-    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, segment_);
+    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, 1.0, segment_);
     ASSERT_TRUE(fault);
     EXPECT_STREQ(to_string(fault->invariant), to_string(invariant));
   }
@@ -42,7 +42,7 @@ class DoctoredSegment : public testing::Test {
 TEST_F(DoctoredSegment, is_found_nothing_in_before) {
   Simulation simulation(scene_);
   while (simulation.advance()) {
-    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, simulation.segment());
+    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, 1.0, simulation.segment());
     ASSERT_FALSE(fault) << fault->detail;
   }
 }

@@ -1,5 +1,7 @@
 #include "trace.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "mechanics/system.h"
@@ -41,8 +43,12 @@ Trace run_trial(const Scene& scene, bool checked) {
   const System system = make_system(scene);
   while (simulation.advance()) {
     const Segment& segment = simulation.segment();
-    if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, segment);
     trace.energy_noise += energy_noise(system, segment);
+    for (const State& q : {segment.begin, segment.end}) {
+      const double turn = std::abs(q.omega) * (system.half_width + system.base_distance);
+      trace.fastest = std::max(trace.fastest, std::abs(q.vx) + std::abs(q.vy) + turn);
+    }
+    if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
     if (!ends_with_touch(segment)) continue;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});

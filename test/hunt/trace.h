@@ -22,6 +22,7 @@ struct Trace {
   bool all_touches = true;        ///< `touches` are all there were
   TrialResult result;
   double energy_noise = 0.0;   ///< what the ledger cannot know
+  double fastest = 0.0;        ///< largest speed of the part's points: what the digits of its rates are those of
   std::optional<Fault> fault;  ///< the first breach in a segment
 };
 
