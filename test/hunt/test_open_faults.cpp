@@ -1,0 +1,38 @@
+// The scenes of open/, whose faults are known (README.md "Open faults"): they are no worse than their first lines say.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "model/scene_loader.h"
+#include "verdict.h"
+
+namespace vibratory_alignment::hunt {
+namespace {
+
+/// "# no_passing: A corner ..." -> "no_passing"; "refused" where the solver gives up and nothing else is wrong.
+std::string known_fault(const std::filesystem::path& file) {
+  std::ifstream text(file);
+  std::string line;
+  std::getline(text, line);
+  const std::size_t colon = line.find(':');
+  return line.size() > 2 && colon != std::string::npos ? line.substr(2, colon - 2) : "";
+}
+
+TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
+  int seen = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(OPEN_FAULTS)) {
+    const std::string known = known_fault(entry.path()), name = entry.path().stem();
+    ASSERT_FALSE(known.empty()) << name;
+    const Verdict verdict = judge(load_scene_file(entry.path()), Range::wild);
+    EXPECT_TRUE(verdict.has_start) << name;
+    for (const Fault& fault : verdict.faults)
+      EXPECT_EQ(to_string(fault.invariant), known) << name << ": " << fault.detail;
+    ++seen;
+  }
+  EXPECT_GT(seen, 0);
+}
+
+}  // namespace
+}  // namespace vibratory_alignment::hunt
