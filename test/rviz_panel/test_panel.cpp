@@ -1,4 +1,5 @@
 // The panel beside a real node: clicks, typing, other clients, a node that goes and comes back.
+#include <cmath>
 #include <csignal>
 #include <memory>
 
@@ -118,8 +119,10 @@ TEST_F(PanelTest, ShowsProgressAndOutcome) {
   ASSERT_TRUE(wait_until([this] { return says("presence", "ended"); })) << presence();
   EXPECT_TRUE(says("outcome", "time limit at 15 ms")) << child<QLabel>(panel_, "outcome").text().toStdString();
   EXPECT_TRUE(says("outcome", "impact mode"));
+  // on a busy machine the outcome arrives before the last samples
+  const auto last_time = [this] { return plot().history().points().back().time; };
+  EXPECT_TRUE(wait_until([&] { return std::abs(last_time() - 0.015) < 1e-12; })) << last_time();
   const HistoryPoint& last = plot().history().points().back();
-  EXPECT_NEAR(last.time, 0.015, 1e-12);
   // 0.2 at the start, 0.09 is the clearance, both in units of 2 mm
   const double progress = (0.4e-3 - last.misalignment) / (0.4e-3 - 0.18e-3);
   EXPECT_NEAR(child<QProgressBar>(panel_, "progress").value() / 1000.0, progress, 1e-3);
