@@ -107,6 +107,9 @@ class CalibrateTest(AlignTestCase):
         self.assertEqual(process.stdout, "")
         self.assertRegex(self.read("report.md"), r"\| as it is \| \d \| 2 \| -5 \|")
 
+    def test_says_what_is_refused(self):
+        self.assert_refused(["calibrate", self.path("none.yaml")], "the calibration or its facts are refused", "none.yaml")
+
     def test_refuses_logs_that_are_not_its_own(self):
         log = self.path("log.jsonl")
         self.calibrate("--log", log)

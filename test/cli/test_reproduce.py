@@ -71,6 +71,11 @@ class ReproduceTest(AlignTestCase):
         for name in ("motion.svg", "motion.png", "curve.svg", "curve.png"):
             self.assertGreater(os.path.getsize(self.path("out/" + name)), 1000, name)
 
+    def test_bounds_have_the_digits_of_the_facts_file(self):
+        self.reproduce("--no-pictures", facts=FACTS.replace("at_least: 1,", "at_least: 0.12345,"))
+        with open(self.path("out/ledger.md")) as file:
+            self.assertIn("| >= 0.12345 |", file.read())
+
     def test_motion_is_that_of_the_trial(self):
         self.reproduce("--no-pictures")
         with open(self.path("out/motion.csv"), newline="") as file:
@@ -126,8 +131,7 @@ figures:
         process = self.reproduce(facts=FACTS.replace("expected: missed", "expected: perhaps"))
         self.assertEqual(process.returncode, 2)
         self.assertIn("facts.1.expected: perhaps: must be met or missed", process.stderr)
-        process = self.align("reproduce", "--facts", self.path("none.yaml"))
-        self.assertEqual(process.returncode, 2)
+        self.assert_refused(["reproduce", "--facts", self.path("none.yaml")], "none.yaml", "(these do: facts)")
 
 
 if __name__ == "__main__":

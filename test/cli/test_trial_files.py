@@ -92,6 +92,11 @@ class CsvTest(AlignTestCase):
         self.assertIn("Outcome", process.stderr)
         self.assert_refused(["trial", self.scene(), "--json", "--csv", "/dev/stdout"], "--json", "--csv")
 
+    def test_alone_asks_for_samples(self):
+        arguments = ["trial", self.scene(), "--sample", "1e-12"]
+        self.assertEqual(self.align(*arguments).returncode, 0)
+        self.assert_refused(arguments + ["--csv", "run.csv"], "--sample", "1e9 samples")
+
     def test_is_not_the_file_that_the_report_goes_to(self):
         for name in ("/dev/stdout", "out.txt"):
             self.write("out.txt", "before\n")
