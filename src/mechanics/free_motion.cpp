@@ -115,7 +115,7 @@ void FreeMotion::add_particular(double t, const Waves::Values& waves, double& q,
 
 /// C - 1 and S: S solves the free equation with S(0) = 0, S'(0) = 1; C = S' + 2a S has C(0) = 1, C'(0) = 0.
 void FreeMotion::homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const {
-  const double fall = waves.change[fall_], envelope = 1.0 + fall;
+  const double fall = waves.change[fall_], envelope = waves.left[fall_];
   if (square_ < 0.0) {
     const double half_s = waves.half_sin[oscillation_], half_c = waves.half_cos[oscillation_];
     s = envelope * 2.0 * half_s * half_c / root_;

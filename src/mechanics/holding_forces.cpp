@@ -177,8 +177,10 @@ HoldingForces::Answer HoldingForces::hold(const Vector& rhs, const Vector& noise
 
 HoldingForces::Answer HoldingForces::hold_motion_with(const Factor& factor, const Answer& motion,
                                                       const Vector& own_rates) const {
+  // where contacts hold every axis, nothing is left of the motion, not even its rounding
+  const bool holds_all = factor.rank == std::count_if(scale_.begin(), scale_.end(), [](double s) { return s > 0.0; });
   Vector rates{};
-  for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, motion) - own_rates[i];
+  for (int i = 0; i < count_; ++i) rates[i] = (holds_all ? 0.0 : -left_over(i, {}, motion)) - own_rates[i];
   Answer held = hold_with(factor, rates);
   const double rate[3] = {motion.x, motion.y, motion.phi * reach_};
   Eigen::Vector3d asked = Eigen::Vector3d::Zero();
@@ -186,7 +188,7 @@ HoldingForces::Answer HoldingForces::hold_motion_with(const Factor& factor, cons
     if (scale_[a] > 0.0) asked[a] = rate[a] / scale_[a];
   for (int i = 0; i < count_; ++i) asked += factor.inverse.col(i) * own_rates[i];
   for (int i = 0; i < count_; ++i) held.force[i] = -factor.inverse.col(i).dot(asked);
-  leave(motion, held);
+  if (!holds_all) leave(motion, held);
   return held;
 }
 
@@ -231,15 +233,15 @@ HoldingForces::Answer HoldingForces::hold_motion(const Answer& motion, const Vec
   return held;
 }
 
-HoldingForces::Answer HoldingForces::respond(const TangentRow& load) const {
+HoldingForces::Answer HoldingForces::respond(const TangentRow& load, bool told_apart) const {
   Answer motion;
   motion.x = inverse_inertia_[0] * load.x;
   motion.y = inverse_inertia_[1] * load.y;
   motion.phi = inverse_inertia_[2] * load.moment;
-  Vector rates{}, any{};
+  Vector rates{}, noise{};
   for (int i = 0; i < count_; ++i) rates[i] = -left_over(i, {}, motion);
-  any.fill(INFINITY);
-  const Answer change = hold(rates, any);
+  if (!told_apart) noise.fill(INFINITY);
+  const Answer change = hold(rates, noise);
   motion.x += change.x;
   motion.y += change.y;
   motion.phi += change.phi;

@@ -55,7 +55,8 @@ class HoldingForces {
   Answer hold_motion(const Answer& motion, const Vector& own_rates) const;
 
   /// How a load on the part (force, moment) changes the rates of the axes while the contacts hold; no force told.
-  Answer respond(const TangentRow& load) const;
+  /// `told_apart`: those of nearly the same row take each a T of its own.
+  Answer respond(const TangentRow& load, bool told_apart = false) const;
 
   /// G T - rhs of one row.
   double left_over(int row, const Vector& rhs, const Answer& answer) const;

@@ -24,8 +24,8 @@ constexpr double kLog2[] = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
 /// Angles beyond this are reduced one by one.
 constexpr double kLargestAngle = 1e5;
 
-/// exp(-40) is nothing beside one.
-constexpr double kFallen = -40.0;
+/// exp(-700) is nothing.
+constexpr double kFallen = -700.0;
 
 /// 1/k!.
 constexpr auto kInverseFactorial = [] {
@@ -58,8 +58,8 @@ VIBRATORY_ALIGNMENT_INLINE void sin_cos(const Quad& angle, Quad& sin, Quad& cos)
   cos = reinterpret_cast<Quad>(reinterpret_cast<Bits>(unsigned_cos) ^ cos_sign);
 }
 
-/// exp(x) - 1 for x <= 0: 2^n exp(r) - 1 with |r| <= log(2)/2, Taylor's series of exp(r) - 1.
-VIBRATORY_ALIGNMENT_INLINE void exp_change(const Quad& exponent, Quad& change) {
+/// exp(x) - 1 and exp(x) for x <= 0: 2^n exp(r) with |r| <= log(2)/2, Taylor's series of exp(r) - 1.
+VIBRATORY_ALIGNMENT_INLINE void exp_change(const Quad& exponent, Quad& change, Quad& left) {
   const Quad least = Quad{} + kFallen, x = exponent > least ? exponent : least;
   const Quad rounded = x * (1.0 / (kLog2[0] + kLog2[1])) + kRounder, n = rounded - kRounder;
   const Quad r = (x - n * kLog2[0]) - n * kLog2[1];
@@ -67,7 +67,9 @@ VIBRATORY_ALIGNMENT_INLINE void exp_change(const Quad& exponent, Quad& change) {
   Quad series = Quad{} + c[14];
   for (int k = 13; k >= 2; --k) series = series * r + c[static_cast<std::size_t>(k)];
   const Quad power = reinterpret_cast<Quad>((reinterpret_cast<Bits>(rounded) + 1023) << 52);
-  change = power * (r + r * r * series) + (power - 1.0);
+  const Quad rest = power * (r + r * r * series);
+  change = rest + (power - 1.0);
+  left = rest + power;
 }
 
 }  // namespace
@@ -94,10 +96,11 @@ VIBRATORY_ALIGNMENT_INLINE void Waves::evaluate(double t, Values& values) const 
     copy(cos, &values.half_cos[i]);
   }
   for (int i = 0; i < decays_; i += kWidth) {
-    Quad rate, change;
+    Quad rate, change, left;
     copy(&decay_rate_[i], rate);
-    exp_change(rate * -t, change);
+    exp_change(rate * -t, change, left);
     copy(change, &values.change[i]);
+    copy(left, &values.left[i]);
   }
 }
 

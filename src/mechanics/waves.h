@@ -13,6 +13,7 @@ class Waves {
   struct Values {
     std::array<double, kMaxOscillations> half_sin, half_cos;  ///< of half the angle: 1 - cos a = 2 sin^2(a/2) is exact
     std::array<double, kMaxDecays> change;                    ///< exp(-rate t) - 1
+    std::array<double, kMaxDecays> left;                      ///< exp(-rate t), whose digits change loses
   };
 
   void clear() {
@@ -22,7 +23,7 @@ class Waves {
 
   /// The place of sin(rate t / 2) and cos(rate t / 2) among the values. Throws std::length_error when there is none.
   int add_oscillation(double rate);
-  /// The place of exp(-rate t) - 1, rate >= 0.
+  /// The place of exp(-rate t) and of exp(-rate t) - 1, rate >= 0.
   int add_decay(double rate);
 
   /// Values at time t >= 0.

@@ -190,13 +190,17 @@ State EventSolver::flight_state(double duration) const {
 /// The time of a crossing in flight, found in the series to their truncation error, in the closed form: one step of
 /// Newton's method leaves the square of that error.
 double EventSolver::crossing_time(double found, const Event& event) const {
-  State state;
-  flight_.at(segment_.flight_time + found, state);
-  const ContactKinematics k = contact_kinematics(system_, state, event.site, event.face);
+  const auto point_at = [&](double time) {
+    State state;
+    flight_.at(segment_.flight_time + time, state);
+    return contact_kinematics(system_, state, event.site, event.face);
+  };
+  const ContactKinematics k = point_at(found);
   const double correction = -k.depth / k.depth_rate;
-  // a graze has no rate to divide by
+  // a graze has no rate to divide by, or one of rounding, which leads away
   if (!(std::abs(correction) <= kMostCorrection * segment_.duration)) return found;
-  return std::clamp(found + correction, 0.0, segment_.duration);
+  const double corrected = std::clamp(found + correction, 0.0, segment_.duration);
+  return std::abs(point_at(corrected).depth) <= std::abs(k.depth) ? corrected : found;
 }
 
 /// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
@@ -404,11 +408,11 @@ const Segment& EventSolver::advance(double limit) {
   if (!leaps) {
     // power series, to the first of: end of the step, limit, kink of an excitation, event
     double step = 0.0, point_tolerance = tolerance_;
+    // in flight events are only sought in the series, and their times corrected in the closed form
+    const bool corrects = !contact && flight_.exact() && !system_.recovery;
     if (contact) {
       step = contact_step(end, drives);
     } else {
-      // where events are only sought in the series and their times corrected in the closed form, less will do
-      const bool corrects = flight_.exact() && !system_.recovery;
       point_tolerance = corrects ? search_tolerance_ : kFlightTolerance;
       series_.expand_free(state_, drives, corrects ? search_order_ : kFlightOrder, segment_);
       step = series_step(system_, segment_, point_tolerance);
@@ -422,7 +426,8 @@ const Segment& EventSolver::advance(double limit) {
       series_.adopt(segment_);
     }
     if (!contact && system_.contacts.edges)
-      step = std::min(step, pair_step(series_.point(Site::a1, segment_), segment_.order, point_tolerance));
+      for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
+        step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
     if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
     for (const Recovery& recovery : mode_.recoveries)
       if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
@@ -443,7 +448,7 @@ const Segment& EventSolver::advance(double limit) {
       found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
     }
     if (found.count > 0) {
-      if (!contact && point_tolerance > kFlightTolerance && found.time > 0.0 && is_crossing(found.events[0].kind))
+      if (corrects && found.time > 0.0 && is_crossing(found.events[0].kind))
         found.time = crossing_time(found.time, found.events[0]);
       segment_.duration = found.time;
       if (implicit_now_ && found.time > 0.0 && implicit_.retake(found.time, segment_, counts_))

@@ -132,6 +132,7 @@ class MotionSeries {
   int sticking_count_ = 0;
   std::array<int, kSiteCount> sticking_{};  ///< indices into segment.loaded
   HoldingForces holding_;                   ///< of the sticking contacts, at the segment's start
+  bool takes_out_twice_ = false;            ///< V' that their rounding leaves is taken out once more
   std::array<double, kHeldPowers> not_held_{};
 };
 

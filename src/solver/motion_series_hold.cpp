@@ -10,6 +10,9 @@ namespace {
 /// Rounding of V' relative to the sizes of its terms.
 constexpr double kSlipRateRounding = 1e-15;
 
+/// What is left of the accelerations below which their rounding shows in it.
+constexpr double kMostlyHeld = 1e-4;
+
 }  // namespace
 
 void MotionSeries::set_up_holding() {
@@ -124,9 +127,17 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
     set_motion(k, held, segment);
   };
   take();
-  // V of what slides beside them may begin with less than the rounding of these forces makes of it
-  const bool something_slides = segment.loaded_count > sticking_count_;
-  if (!holding_.delicate() && !something_slides) {
+  if (k == 0) {
+    // V of what slides beside them may begin with less than the rounding of these forces makes of it; where they hold
+    // most of the motion, what they leave does. In all powers alike: one in which they leave more would set the step
+    const double reach = system_.half_width + system_.base_distance;
+    const auto size = [&](const HoldingForces::Answer& a) {
+      return std::abs(a.x) + std::abs(a.y) + reach * std::abs(a.phi);
+    };
+    const bool something_slides = segment.loaded_count > sticking_count_;
+    takes_out_twice_ = holding_.delicate() || something_slides || size(held) < kMostlyHeld * size(free);
+  }
+  if (!takes_out_twice_) {
     watch_held(k, rates, noise, held);
     return;
   }

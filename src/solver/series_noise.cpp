@@ -51,8 +51,17 @@ void hold_noise(const System& system, const Segment& segment, const Kinematics& 
   HoldingForces holding;
   holding.set(system, rows, count);
   if (!holding.delicate() && count == segment.loaded_count) return;
-  const HoldingForces::Answer x = holding.respond({load.x, 0.0, 0.0}), y = holding.respond({0.0, load.y, 0.0}),
-                              phi = holding.respond({0.0, 0.0, load.moment});
+  using Responses = std::array<HoldingForces::Answer, 3>;
+  const auto responses = [&](bool told_apart) {
+    return Responses{holding.respond({load.x, 0.0, 0.0}, told_apart), holding.respond({0.0, load.y, 0.0}, told_apart),
+                     holding.respond({0.0, 0.0, load.moment}, told_apart)};
+  };
+  const Responses shared = responses(false), told_apart = responses(true);
+  const auto rate = [](const TangentRow& row, const Responses& answers) {
+    double sum = 0.0;
+    for (const HoldingForces::Answer& a : answers) sum += std::abs(row.x * a.x + row.y * a.y + row.moment * a.phi);
+    return sum;
+  };
   const int order = segment.order;
   const double ax = largest_slope_term(segment.vx, order, noise.h), ay = largest_slope_term(segment.vy, order, noise.h),
                turn = largest_slope_term(segment.omega, order, noise.h);
@@ -62,14 +71,12 @@ void hold_noise(const System& system, const Segment& segment, const Kinematics& 
     const double motion =
         curvature + rounding * (std::abs(row.x) * ax + std::abs(row.y) * ay + std::abs(row.moment) * turn);
     if (sticks(segment, i)) {
-      noise.held_slip_rate = std::max(noise.held_slip_rate, motion);
+      // contacts that count as the same do not hold what they differ by
+      noise.held_slip_rate = std::max(noise.held_slip_rate, rate(row, told_apart) + motion);
       continue;
     }
-    const auto rate = [&](const HoldingForces::Answer& a) {
-      return std::abs(row.x * a.x + row.y * a.y + row.moment * a.phi);
-    };
-    noise.slip_rate[i] = std::min(noise.slip_rate[i], rate(x) + rate(y) + rate(phi) + motion);
-    noise.mobility[i] = std::min(noise.mobility[i], rate(holding.respond(row)));
+    noise.slip_rate[i] = std::min(noise.slip_rate[i], rate(row, shared) + motion);
+    noise.mobility[i] = std::min(noise.mobility[i], rate(row, {holding.respond(row)}));
   }
 }
 

@@ -126,6 +126,20 @@ void expect_motion(const test::LoneMotion& motion, const Motion& expected, const
 
 enum class Slopes { with, without };
 
+/// A fast start, long ago: what is left of it keeps its own digits, but for those of the phase and the exponent.
+void expect_digits_of_what_is_left(const Axis& axis) {
+  test::LoneMotion motion(0);
+  motion.begin(axis, 0.0, 3e3, 0.0);
+  motion.settle();
+  ASSERT_TRUE(motion.exact());
+  for (const double t : {5.0, 10.0, 20.0}) {
+    double q = 0.0, v = 0.0;
+    motion.at(t, q, v);
+    const Motion expected = exponential_solution(axis, 0.0, 3e3, 0.0, {}, t);
+    EXPECT_NEAR(q, expected.q, 1e-13 * std::abs(expected.q)) << "t = " << t;
+  }
+}
+
 /// All loads and many times on one axis.
 void expect_solution(const Axis& axis, double longest, Slopes slopes = Slopes::with) {
   const double q0 = 0.83, v0 = -0.37;
@@ -153,6 +167,12 @@ TEST(FreeMotion, without_stiffness) { expect_solution(axis_of(1.0, 0.8, 0.0, 0.0
 TEST(FreeMotion, without_damping_and_stiffness) { expect_solution(axis_of(0.7, 0.0, 0.0, 0.0), 20.0); }
 TEST(FreeMotion, light_inertia) { expect_solution(axis_of(1e-6, 0.05, 60.0, 0.1), 1.0); }
 TEST(FreeMotion, heavy_inertia) { expect_solution(axis_of(1e3, 0.05, 60.0, 0.1), 30.0); }
+
+TEST(FreeMotion, keeps_the_digits_of_what_is_left) {
+  expect_digits_of_what_is_left(axis_of(1.0, 2.0, 1.0, 0.0));
+  expect_digits_of_what_is_left(axis_of(1.0, 1.9, 1.0, 0.0));
+  expect_digits_of_what_is_left(axis_of(1.0, 2.2, 1.0, 0.0));
+}
 
 TEST(FreeMotion, near_critical_damping_from_both_sides) {
   for (const double off : {1e-3, 1e-6, 1e-9, 1e-12, 3e-16})

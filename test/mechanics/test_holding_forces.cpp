@@ -153,6 +153,20 @@ TEST(HoldingForces, leave_a_part_that_is_wholly_held_at_rest) {
   }
 }
 
+// Three contacts hold all three axes: what is left is what V' asks for by itself, however large what they hold.
+TEST(HoldingForces, leave_nothing_of_a_motion_but_what_turning_asks_for) {
+  const HoldingForces::Rows rows = {{{0.635, 0.773, 1.03}, {0.0, -1.0, 5.4}, {1.0, 0.0, 7.0}}};
+  const HoldingForces holding = holding_of(part(0.018), rows, 3);
+  ASSERT_TRUE(holding.regular());
+  const HoldingForces::Answer large{{}, 3e10, -7e10, 1.1e12};
+  const HoldingForces::Answer rest = holding.hold_motion(large, {});
+  EXPECT_EQ(std::abs(rest.x) + std::abs(rest.y) + std::abs(rest.phi), 0.0);
+  const Vector own{0.3, -0.2, 0.7};
+  const HoldingForces::Answer held = holding.hold_motion(large, own);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(holding.left_over(i, {}, held) + own[static_cast<std::size_t>(i)], 0.0, 1e-14) << i;
+}
+
 TEST(HoldingForces, of_contacts_that_count_as_the_same_are_so_to_the_last_digit) {
   for (const double off : {0.0, 1e-9, 1e-6}) {
     const HoldingForces holding =
@@ -200,6 +214,27 @@ TEST(HoldingForces, leave_a_load_only_the_motion_that_contacts_allow) {
     const HoldingForces::Answer free = holding_of(system, {}, 0).respond({0.0, 2.0, 1.0});
     EXPECT_EQ(free.y, 2.0);
     EXPECT_EQ(free.phi, 1.0 / inertia);
+  }
+}
+
+// A moment turns a part about what two contacts of nearly one lever hold in common; told apart they hold that too.
+// Where the levers count as the same nothing does.
+TEST(HoldingForces, leave_what_contacts_of_nearly_one_lever_differ_by) {
+  const System system = part(1.0);
+  for (const double off : {8e-5, 8e-7}) {
+    const HoldingForces::Rows rows = {{{1.0, 0.0, 80.0}, {1.0, 0.0, 80.0 + off}}};
+    const HoldingForces holding = holding_of(system, rows, 2);
+    const auto apart = [&](const HoldingForces::Answer& a) {
+      return std::abs(holding.left_over(1, {}, a) - holding.left_over(0, {}, a));
+    };
+    // (1 + 80^2) phi'' = 1 about the held points
+    const double expected = off / (1.0 + 80.0 * 80.0);
+    EXPECT_NEAR(apart(holding.respond({0.0, 0.0, 1.0})), expected, 1e-3 * expected) << off;
+    const double told_apart = apart(holding.respond({0.0, 0.0, 1.0}, true));
+    if (off > 4e-8 * 81.0)
+      EXPECT_LT(told_apart, 1e-6 * expected) << off;
+    else
+      EXPECT_NEAR(told_apart, expected, 1e-3 * expected) << off;
   }
 }
 

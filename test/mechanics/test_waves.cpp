@@ -38,6 +38,13 @@ TEST(Waves, are_good_to_two_digits_of_a_double) {
     for (std::size_t k = 0; k < Waves::kMaxDecays; ++k) {
       const double exact = static_cast<double>(std::expm1(static_cast<long double>(-(decay[k] * t))));
       ASSERT_NEAR(values.change[k], exact, 2.0 * kEps * std::abs(exact)) << decay[k] * t;
+      // what is left keeps its own digits, but for those of the exponent
+      const double exponent = decay[k] * t, left = static_cast<double>(std::exp(static_cast<long double>(-exponent)));
+      if (exponent < 700.0) {
+        ASSERT_NEAR(values.left[k], left, (2.0 + exponent) * kEps * left) << exponent;
+      } else {
+        ASSERT_LT(values.left[k], 1e-300) << exponent;
+      }
     }
   }
 }

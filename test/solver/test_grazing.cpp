@@ -2,11 +2,13 @@
 // test/hard/test_grazing_gap.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "mechanics/contact_frame.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -44,6 +46,62 @@ TEST(Grazing, a_point_that_starts_on_a_face_goes_where_its_velocity_takes_it) {
     }
     EXPECT_EQ(touches, 1) << scene.part.base_distance;
   }
+}
+
+// Two corners at once, after a flight that began a thousand times faster: the touch is where the depth is zero, to the
+// digits of the place and not of where the flight has been.
+TEST(Grazing, a_touch_of_two_is_where_the_depth_is_zero) {
+  const Scene scene = test::scene_of(R"(
+part: {half_width: 0.17, base_distance: 0.9}
+slot: {clearance: 4e-09}
+gripper: {stiffness: {}, damping: {x: 0, y: 2, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1e+09, y: 1e+09}, damping: {x: 0, y: 7982}, recovery: false}
+contacts: [corners]
+weight: 0
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.2, y: 0.8574344303505902, phi: 0.08, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 1e+01, aligned_depth: 0}
+solver: {name: event, tolerance: 5e-13, step_limit: 1000}
+)");
+  const System system = make_system(scene);
+  int touches = 0;
+  for (const test::TimedEvent& e : test::events_of(scene)) {
+    if (e.event.kind != EventKind::touch) continue;
+    ++touches;
+    EXPECT_NEAR(contact_kinematics(system, e.state, e.event.site, e.event.face).depth, 0.0, 1e-14);
+  }
+  EXPECT_GT(touches, 0);
+}
+
+// A corner held down by a damper until nothing presses it is let go at rest, on the floor, to be pressed again at once:
+// a touch whose depth rate is rounding, and for which Newton's method would look far away.
+TEST(Grazing, a_touch_from_rest_is_noticed) {
+  const Scene scene = test::scene_of(R"(
+part: {half_width: 9e+03, base_distance: 23.727339268572276, inertia: 0.07725}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {phi: 42.59}, damping: {x: 0, y: 0.3425, phi: 0.1}, anchor: {x: 0, phi: 0.11563762452269133}, pressing_force: 6}
+base: {stiffness: {x: 1, y: 2e+07}, damping: {x: 0, y: 3e+04}, recovery: false}
+contacts: [walls]
+weight: 2
+excitation:
+  - {amplitude: 0.9, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 0, y: 2e+03, phi: 0.1156, vx: 0, vy: 0.4, omega: -0.2537}
+trial: {time_limit: 2, aligned_depth: 0}
+solver: {name: event, tolerance: 2e-09, step_limit: 1000}
+)");
+  const System system = make_system(scene);
+  double deepest = 0.0;
+  int flights = 0;
+  test::run(scene, [&](const Segment& g) {
+    if (g.contacts[static_cast<std::size_t>(Site::b2_floor)].phase != Phase::outside) return;
+    ++flights;
+    for (const double share : {0.13, 0.5, 1.0})
+      deepest = std::max(
+          deepest, contact_kinematics(system, state_at(g, share * g.duration), Site::b2_floor, Face::floor).depth);
+  });
+  EXPECT_GT(flights, 3);
+  EXPECT_LE(deepest, 1e-9);  // lengths are 1e4
 }
 
 // With less than the pressing force the excitation never lifts the part: |A| < f0 + w.

@@ -263,6 +263,23 @@ TEST(MotionSeries, one_sticks_while_the_other_slips) {
     expect_contacts(s, at_rest_along(s.system, wedged(s.system, a, b, 0.2 + 0.02 * i, random), a), {a, b});
 }
 
+// The side of a part that leans by 1e-4 has 1e-8 of the damping along the other axis. N is k d + h d' to the last digit
+// though h is 1e-8 of what it is made of.
+TEST(MotionSeries, a_side_that_hardly_leans_into_a_strong_damper) {
+  const Case s = case_of({"base={stiffness: {x: 90, y: 130}, damping: {x: 0, y: 1e7}}", "friction=null"});
+  Segment g;
+  g.contacts[static_cast<std::size_t>(Site::a2)] = {Phase::loaded, Face::left_side, Slip::none};
+  MotionSeries series(s.system);
+  for (const double tilt : {1e-4, 3.1e-5, -2.3e-6}) {
+    const State start{0.05, 0.7, tilt, -1e4, 0.0, 0.0};
+    series.expand_contact(start, s.drives, kOrder, g);
+    const ContactKinematics k = contact_kinematics(s.system, start, Site::a2, Face::left_side);
+    const double sine = std::sin(tilt), cosine = std::cos(tilt);
+    const double force = (90.0 * cosine * cosine + 130.0 * sine * sine) * k.depth + 1e7 * sine * sine * k.depth_rate;
+    EXPECT_NEAR(g.loaded[0].normal_force[0], force, 1e-14 * std::abs(force)) << tilt;
+  }
+}
+
 TEST(MotionSeries, wall_and_floor_at_once) {
   const Case s = case_of();
   const Touch wall{Site::b1, Face::right_wall, Slip::plus}, floor{Site::b1_floor, Face::floor, Slip::minus};

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -332,6 +333,48 @@ trial: {time_limit: 1, aligned_depth: 0}
 solver: {name: event, tolerance: 1e-08, step_limit: 1000}
 )"},
       // friction's limit is reached 2e-18 before N is zero
+      {"corner_and_faces_that_hold_a_light_part", R"(
+part: {half_width: 0.3, base_distance: 2.3, inertia: 1.5e-05}
+slot: {clearance: 4e-08}
+gripper: {stiffness: {x: 0, phi: 0.3}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 0}
+base: {stiffness: {x: 5.6e+09, y: 1.556e+10}, damping: {x: 2.5e+05, y: 1.175e+06}, recovery: false}
+contacts: [edges, corners]
+friction: {coefficient: 2.8}
+weight: 0
+excitation:
+  - {amplitude: 0.1, frequency: 1, phase: 0, direction: phi, waveform: sine}
+initial: {x: 0, y: 1, phi: -0.1437, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 2e-04, aligned_depth: 0}
+solver: {name: event, tolerance: 3e-12, step_limit: 1000}
+)"},
+      {"three_that_hold_all_axes", R"(
+part: {half_width: 0.41, base_distance: 3, inertia: 0.018}
+slot: {clearance: 0.01}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, y: 1, phi: 0}}
+base: {stiffness: {x: 2e+11, y: 2.4e+11}, damping: {x: 1e+07, y: 1e+05}, recovery: false}
+contacts: [edges, corners, walls]
+friction: {coefficient: 1}
+weight: 0
+excitation:
+  - {amplitude: 1, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: -0.2, y: 1, phi: -0.5, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
+      {"balance_on_far_corners", R"(
+part: {half_width: 3e+03, base_distance: 1, inertia: 1}
+slot: {clearance: 1}
+gripper: {stiffness: {x: 0, phi: 0.03}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0.05}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 2e+01}, damping: {x: 0, y: 0}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 1}
+weight: 1e+01
+excitation:
+  - {amplitude: 0, frequency: 1, phase: 0, direction: y, waveform: sine}
+initial: {x: 7e+03, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 6e-06, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)"},
       {"level_corners_about_to_release", R"(
 part: {half_width: 0.1, base_distance: 0.9021, inertia: 0.06459}
 slot: {clearance: 0.08143}
@@ -412,6 +455,12 @@ class UnequalMobility : public testing::TestWithParam<test::NamedScene> {
 INSTANTIATE_TEST_SUITE_P(scene, UnequalMobility, testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
 
+Scene scene_named(const std::string& name) {
+  for (const test::NamedScene& scene : cases())
+    if (scene.name == name) return test::scene_of(scene.text);
+  throw std::invalid_argument("no scene " + name);
+}
+
 /// The largest that a force has been or could be: its rounding is measured by that.
 double size_of(const Series& force, int order, double t) {
   double sum = 0.0, power = 1.0;
@@ -491,16 +540,47 @@ TEST_P(UnequalMobility, is_mirrored_in_the_mirrored_scene) {
 
 // Two corners of levers that differ by 5e-7 can hold the part only by T of 4e6 in opposite directions, far beyond f N.
 TEST(UnequalMobilityOf, friction_makes_the_motion_it_holds) {
-  for (const test::NamedScene& scene : cases()) {
-    if (scene.name != "corners_of_nearly_one_lever") continue;
-    const Scene corners = test::scene_of(scene.text);
-    const TrialResult result = test::run(corners);
-    EXPECT_EQ(result.outcome, Outcome::time_limit) << result.failure;
-    ASSERT_TRUE(result.energy);
-    EXPECT_LE(result.energy->residual, 10.0 * corners.solver.tolerance);
-    return;
+  const Scene corners = scene_named("corners_of_nearly_one_lever");
+  const TrialResult result = test::run(corners);
+  EXPECT_EQ(result.outcome, Outcome::time_limit) << result.failure;
+  ASSERT_TRUE(result.energy);
+  EXPECT_LE(result.energy->residual, 10.0 * corners.solver.tolerance);
+}
+
+// Contacts that hold a part against forces of 1e9: rounding of these would make it creep, and the base push by as much.
+TEST(UnequalMobilityOf, what_sticks_does_not_creep) {
+  for (const char* name : {"corner_and_faces_that_hold_a_light_part", "three_that_hold_all_axes"}) {
+    const Scene scene = scene_named(name);
+    const System system = make_system(scene);
+    double fastest = 0.0, creep = 0.0;
+    int seen = 0;
+    test::run(scene, [&](const Segment& g) {
+      fastest = std::max(fastest, speed_of(system, g.begin));
+      for (int i = 0; i < g.loaded_count; ++i) {
+        const Site site = g.loaded[static_cast<std::size_t>(i)].site;
+        const ContactState& law = g.contacts[static_cast<std::size_t>(site)];
+        if (law.slip != Slip::stick) continue;
+        ++seen;
+        creep = std::max(creep, std::abs(contact_kinematics(system, g.end, site, law.face).slip_velocity));
+      }
+    });
+    EXPECT_GT(seen, 50) << name;
+    EXPECT_LE(creep, 1e-13 * fastest) << name;
   }
-  FAIL() << "no such scene";
+}
+
+// In balance, without a load along the face: corners whose levers differ by 1e-8 need no friction, and do not squeeze
+// the part with all they have to hold what rounding leaves of the balance.
+TEST(UnequalMobilityOf, a_part_in_balance_needs_no_friction) {
+  const Scene scene = scene_named("balance_on_far_corners");
+  for (const Scene& one : {scene, test::mirrored(scene)})
+    test::run(one, [&](const Segment& g) {
+      EXPECT_EQ(g.loaded_count, 2);
+      for (int i = 0; i < g.loaded_count; ++i) {
+        const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
+        EXPECT_LE(std::abs(contact.tangential_force[0]), 1e-9 * contact.normal_force[0]);
+      }
+    });
 }
 
 /// Its tolerance is too wide for the laws to hold to the digit.
