@@ -105,6 +105,8 @@ class MotionSeries {
   void hold_sticking(int k, Segment& segment);
   void set_up_holding();
   void negated_slip_rates(int k, Segment& segment, HoldingForces::Vector& rates);
+  bool rounding_shows(const HoldingForces::Answer& free, const HoldingForces::Answer& held,
+                      const Segment& segment) const;
   void watch_held(int k, const HoldingForces::Vector& rates, const HoldingForces::Vector& noise,
                   const HoldingForces::Answer& held);
   static HoldingForces::Answer motion(int k, const Segment& segment);

@@ -10,7 +10,7 @@ namespace {
 /// Rounding of V' relative to the sizes of its terms.
 constexpr double kSlipRateRounding = 1e-15;
 
-/// What is left of the accelerations below which their rounding shows in it.
+/// Part of the accelerations that, if no more is left of them, shows their rounding.
 constexpr double kMostlyHeld = 1e-4;
 
 }  // namespace
@@ -127,16 +127,8 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
     set_motion(k, held, segment);
   };
   take();
-  if (k == 0) {
-    // V of what slides beside them may begin with less than the rounding of these forces makes of it; where they hold
-    // most of the motion, what they leave does. In all powers alike: one in which they leave more would set the step
-    const double reach = system_.half_width + system_.base_distance;
-    const auto size = [&](const HoldingForces::Answer& a) {
-      return std::abs(a.x) + std::abs(a.y) + reach * std::abs(a.phi);
-    };
-    const bool something_slides = segment.loaded_count > sticking_count_;
-    takes_out_twice_ = holding_.delicate() || something_slides || size(held) < kMostlyHeld * size(free);
-  }
+  // in all powers alike: one in which more is left would set the step
+  if (k == 0) takes_out_twice_ = rounding_shows(free, held, segment);
   if (!takes_out_twice_) {
     watch_held(k, rates, noise, held);
     return;
@@ -154,6 +146,18 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   watch_held(k, rates, noise, correction);
   const HoldingForces::Answer now = motion(k, segment);
   set_motion(k, {{}, now.x + correction.x, now.y + correction.y, now.phi + correction.phi}, segment);
+}
+
+/// True when the rounding of T may show: where it moves the part by more than its motion is rounded, where little is
+/// left of the motion, and where V of what slides beside may begin with less.
+bool MotionSeries::rounding_shows(const HoldingForces::Answer& free, const HoldingForces::Answer& held,
+                                  const Segment& segment) const {
+  const double reach = system_.half_width + system_.base_distance;
+  const auto size = [&](const HoldingForces::Answer& a) {
+    return std::abs(a.x) + std::abs(a.y) + reach * std::abs(a.phi);
+  };
+  const bool something_slides = segment.loaded_count > sticking_count_;
+  return holding_.delicate() || something_slides || size(held) < kMostlyHeld * size(free);
 }
 
 /// Keeps what is left of V' of power k.
