@@ -45,6 +45,12 @@ class AccuracyTest(AlignTestCase):
         process = self.align("accuracy", "central", "--solvers", "event")
         self.assertEqual(process.returncode, 0, process.stderr)
 
+    def test_draws_what_the_name_says(self):
+        for name, begin in (("a.svg", b"<?xml"), ("a.pdf", b"%PDF"), ("a.png", b"\x89PNG")):
+            self.study("--solvers", "event", "--plot", self.path(name))
+            with open(self.path(name), "rb") as file:
+                self.assertEqual(file.read(len(begin)), begin, name)
+
     def test_refusals(self):
         self.assert_refused(["accuracy", self.scene(), "--solvers", "magic"], "magic", "event", "ode")
         self.assert_refused(["accuracy", self.path("none.yaml")], "none.yaml")

@@ -72,6 +72,9 @@ class MergeTest(SweepTestCase):
         self.write(names[1], b"\n".join(lines[:4] + lines[5:]))
         self.assert_no_merge(names, names[1] + ": has another line")
 
+    def test_the_whole_file_has_a_name(self):
+        self.assert_refused(["merge", ""] + self.shards(2), "OUT", "empty")
+
     def test_a_shard_is_not_overwritten(self):
         names = self.shards(2)
         before = self.bytes_of(names[0])

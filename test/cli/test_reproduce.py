@@ -72,9 +72,12 @@ class ReproduceTest(AlignTestCase):
             self.assertGreater(os.path.getsize(self.path("out/" + name)), 1000, name)
 
     def test_bounds_have_the_digits_of_the_facts_file(self):
-        self.reproduce("--no-pictures", facts=FACTS.replace("at_least: 1,", "at_least: 0.12345,"))
+        facts = FACTS.replace("at_least: 1,", "at_least: 0.123456,", 1)
+        self.reproduce("--no-pictures", facts=facts.replace("at_least: 1,", "at_least: 0.75, at_most: 0.75,"))
         with open(self.path("out/ledger.md")) as file:
-            self.assertIn("| >= 0.12345 |", file.read())
+            text = file.read()
+        self.assertIn("| >= 0.123456 |", text)
+        self.assertIn("| = 0.75 |", text)
 
     def test_motion_is_that_of_the_trial(self):
         self.reproduce("--no-pictures")
@@ -90,6 +93,12 @@ class ReproduceTest(AlignTestCase):
         process = self.reproduce("--check", "--no-pictures", facts=FACTS.replace("expected: missed", "expected: met"))
         self.assertEqual(process.returncode, 1)
         self.assertIn("expected to be met, and missed: B", process.stderr)
+        self.assertIn("Missed, though expected to be met: B", process.stdout)
+        self.assertNotIn("Met, though", process.stdout)
+        process = self.reproduce("--check", "--no-pictures", facts=FACTS.replace("expected: met", "expected: missed"))
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("Met, though not expected: A", process.stdout)
+        self.assertNotIn("Missed, though", process.stdout)
 
     def test_threads_change_nothing(self):
         texts = []
@@ -127,6 +136,7 @@ figures:
         self.assertIn("FIGURE: fig9: there is no such figure; there are motion, curve", process.stderr)
         process = self.reproduce(facts=FACTS.replace("of: impact", "of: impacts"))
         self.assertEqual(process.returncode, 2)
+        self.assertIn("the facts or their studies are refused", process.stderr)
         self.assertIn("B: share: of: impacts", process.stderr)
         process = self.reproduce(facts=FACTS.replace("expected: missed", "expected: perhaps"))
         self.assertEqual(process.returncode, 2)

@@ -146,8 +146,9 @@ class SummaryTest(SweepTestCase):
 
 class RefusalTest(SweepTestCase):
     def test_faults_of_the_study(self):
-        self.assert_refused(["sweep", self.study(vary={"initial.x": 3})], "study.yaml", "vary.initial.x: 3")
+        self.assert_refused(["sweep", self.study(vary={"initial.x": 3})], "the study is refused", "study.yaml", "vary.initial.x: 3")
         self.assert_refused(["sweep", self.study(without=["samples"])], "samples", "missing")
+        self.assert_refused(["sweep", self.study(vary={"initial.x": [0.1, 0.2]})], "samples", "nothing is sampled")
         self.assert_refused(["sweep", self.study(vary={"initial.z": [3]}, without=["samples"])], "initial.z", "unknown key")
         self.assert_refused(["sweep", self.study(scene="nosuch")], "scene: nosuch", "fig2")
         self.assert_refused(["sweep", "nosuch"], "nosuch", "no such file")

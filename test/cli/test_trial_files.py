@@ -107,11 +107,27 @@ class CsvTest(AlignTestCase):
                 with open(self.path("out.txt")) as file:
                     self.assertEqual(file.read(), "before\n")
 
+    def test_is_not_the_file_that_messages_go_to(self):
+        self.write("messages.txt", "before\n")
+        command = [self.align_path, "trial", self.scene(), "--csv", "messages.txt"]
+        with open(self.path("messages.txt"), "a") as messages:
+            process = subprocess.run(command, cwd=self.directory, stdout=subprocess.PIPE, stderr=messages, timeout=60)
+        self.assertEqual(process.returncode, 2)
+        with open(self.path("messages.txt")) as file:
+            self.assertRegex(file.read(), r"\Abefore\n.*--csv: messages.txt: cannot be written")
+
     def test_has_a_name(self):
         # what a shell makes of a variable that is not set
-        for arguments in (["trial", "--csv"], ["trial", "--bag"], ["accuracy", "--plot"], ["sweep", "--csv"]):
-            with self.subTest(arguments):
-                self.assert_refused([arguments[0], self.scene(), arguments[1], ""], arguments[1], "empty")
+        for command, options in {
+            "trial": ("--csv", "--bag"),
+            "accuracy": ("--csv", "--plot"),
+            "sweep": ("--csv",),
+            "calibrate": ("--report", "--log"),
+            "reproduce": ("--output", "--facts"),
+        }.items():
+            for option in options:
+                with self.subTest(command + " " + option):
+                    self.assert_refused([command, self.scene(), option, ""], option, "empty")
 
 
 class LostFileTest(AlignTestCase):

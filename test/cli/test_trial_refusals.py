@@ -9,7 +9,7 @@ from align_test_case import SMALL_SCENE, AlignTestCase
 class SceneRefusalTest(AlignTestCase):
     def refuse_file(self, content, *words):
         path = self.write("bad.yaml", content)
-        return self.assert_refused(["trial", path], "bad.yaml", *words)
+        return self.assert_refused(["trial", path], "the scene is refused", "bad.yaml", *words)
 
     def refuse_setting(self, setting, *words):
         return self.assert_refused(["trial", self.scene(), "--set", setting], *words)
