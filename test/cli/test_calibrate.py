@@ -1,7 +1,10 @@
 """`align calibrate`: what is found, and a search that is interrupted and goes on from its log."""
 
 import json
+import os
+import signal
 import subprocess
+import time
 import unittest
 
 from align_test_case import AlignTestCase
@@ -106,6 +109,21 @@ class CalibrateTest(AlignTestCase):
         process = self.calibrate("--log", log, "--resume", "--report", self.path("report.md"))
         self.assertEqual(process.stdout, "")
         self.assertRegex(self.read("report.md"), r"\| as it is \| \d \| 2 \| -5 \|")
+
+    def test_says_how_to_go_on_when_it_is_interrupted(self):
+        self.write("calibration.yaml", CALIBRATION.replace("global_evaluations: 40", "global_evaluations: 10000000"))
+        log = self.path("log.jsonl")
+        process = subprocess.Popen([self.align_path, "calibrate", self.file, "--log", log], stderr=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, universal_newlines=True)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not (os.path.exists(log) and len(self.log_lines()) > 2):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        text, messages = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT, messages)
+        self.assertEqual(text, "")
+        self.assertIn("--resume goes on with what the log has", messages)
 
     def test_says_what_is_refused(self):
         self.assert_refused(["calibrate", self.path("none.yaml")], "the calibration or its facts are refused", "none.yaml")
