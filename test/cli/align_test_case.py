@@ -6,9 +6,12 @@ The environment variable ALIGN names the command, e.g. ALIGN=devel/lib/vibratory
 import copy
 import json
 import os
+import pty
+import select
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 import yaml
@@ -80,6 +83,22 @@ class AlignTestCase(unittest.TestCase):
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertEqual(process.stderr, "")
         return json.loads(process.stdout)
+
+    def seen(self, *arguments, until=None):
+        """What a terminal gets of a run, which is ended once it has got `until`, or after three seconds."""
+        terminal, stdout = pty.openpty()
+        process = subprocess.Popen([self.align_path] + list(arguments), cwd=self.directory, stdout=stdout,
+                                   stderr=subprocess.DEVNULL, env=dict(os.environ, TERM="xterm"))
+        os.close(stdout)
+        deadline = time.monotonic() + (60 if until else 3)
+        text = b""
+        while time.monotonic() < deadline and not (until and until in text):
+            if select.select([terminal], [], [], 0.1)[0]:
+                text += os.read(terminal, 65536)
+        os.close(terminal)
+        process.kill()
+        process.wait(timeout=30)
+        return text
 
     def assert_refused(self, arguments, *words):
         """align ends with 2, prints nothing on stdout and every word on stderr, in words fit for people."""

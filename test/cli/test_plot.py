@@ -87,6 +87,9 @@ class PlotTest(AlignTestCase):
         width, height = struct.unpack(">II", head[16:24])
         self.assertGreater(width, 800)
         self.assertGreater(height, 600)
+        self.plot(self.csv, self.path("run.pdf"))
+        with open(self.path("run.pdf"), "rb") as file:
+            self.assertEqual(file.read(5), b"%PDF-")
         self.assert_refused(["plot", self.csv, self.path("run.jpeg")], "run.jpeg", ".png", ".svg", ".pdf")
 
     def test_refuses_files_without_a_trial(self):

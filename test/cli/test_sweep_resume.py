@@ -175,6 +175,11 @@ class LongSweepTest(SweepTestCase):
             self.assertTrue(self.bytes_of("out.csv.part").endswith(b"\n"))
         self.assert_ends_as_one_run()
 
+    def test_has_no_bar_among_the_rows_on_a_terminal(self):
+        self.study(samples={"count": 100000, "seed": 1})
+        self.assertIn(b"\x1b[K[", self.seen("sweep", "study.yaml", until=b"\x1b[K["))
+        self.assertNotIn(b"\x1b", self.seen("sweep", "study.yaml", "--csv", "/dev/stdout"))
+
     def test_two_at_a_time_are_refused(self):
         process = self.start()
         self.wait_for_rows(process, 1000)

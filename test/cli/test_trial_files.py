@@ -130,6 +130,19 @@ class CsvTest(AlignTestCase):
                     self.assert_refused([command, self.scene(), option, ""], option, "empty")
 
 
+class TerminalTest(AlignTestCase):
+    """Of a run that takes longer than the second after which the bar is drawn."""
+
+    def test_shows_how_far_the_run_is(self):
+        seen = self.seen("trial", self.scene(), "--until", "1e6", until=b"at t = ")
+        self.assertRegex(seen, rb"\r\x1b\[K\[[#.]+\] +\d+ %  at t = ")
+
+    def test_has_no_bar_among_the_rows(self):
+        seen = self.seen("trial", self.scene(), "--until", "1e6", "--csv", "/dev/stdout", "--sample", "100")
+        self.assertTrue(seen.startswith(b"t,x,y"))
+        self.assertNotIn(b"\x1b", seen)
+
+
 class LostFileTest(AlignTestCase):
     def test_full_disk(self):
         for option in ("--csv", "--bag"):

@@ -7,6 +7,7 @@
 
 #include "../support/scenes.h"
 #include "hunt.h"
+#include "model/scene_loader.h"
 #include "random_scene.h"
 #include "verdict.h"
 
@@ -99,6 +100,22 @@ TEST(Judge, passes_a_sound_scene_and_refuses_one_without_start) {
   scene = test::scene_of(test::plain);
   scene.initial.x = 10.0;  // nothing can be touched from above there
   EXPECT_FALSE(judge(scene, Range::ordinary).has_start);
+}
+
+// With a fixed step points pass unnoticed for a while, and the ledger does not close.
+TEST(Judge, finds_what_a_coarse_solver_breaks) {
+  Scene scene = test::scene_of(test::plain);
+  scene.solver.name = "rk4";
+  scene.solver.step = 1e-3;
+  const Verdict verdict = judge(scene, Range::ordinary);
+  EXPECT_TRUE(verdict.breaks(Invariant::no_passing));
+  EXPECT_TRUE(verdict.breaks(Invariant::ledger_closes));
+}
+
+TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {
+  const Scene scene = load_scene_file(std::string(OPEN_FAULTS) + "/corner_that_slides_by_rounding.yaml");
+  EXPECT_TRUE(judge(scene, Range::ordinary).breaks(Invariant::ends));
+  EXPECT_FALSE(judge(scene, Range::wild).breaks(Invariant::ends));
 }
 
 // Several contacts nearly coincide, and rounding decides how many of them hold; so do starts that differ in the last

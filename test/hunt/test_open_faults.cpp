@@ -20,6 +20,12 @@ std::string known_fault(const std::filesystem::path& file) {
   return line.size() > 2 && colon != std::string::npos ? line.substr(2, colon - 2) : "";
 }
 
+bool is_invariant(const std::string& word) {
+  for (int i = 0; i < kInvariantCount; ++i)
+    if (word == to_string(static_cast<Invariant>(i))) return true;
+  return false;
+}
+
 TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
   int seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(OPEN_FAULTS)) {
@@ -27,6 +33,10 @@ TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
     ASSERT_FALSE(known.empty()) << name;
     const Verdict verdict = judge(load_scene_file(entry.path()), Range::wild);
     EXPECT_TRUE(verdict.has_start) << name;
+    if (known != "refused") {
+      EXPECT_TRUE(is_invariant(known)) << name << ": " << known;
+      EXPECT_FALSE(verdict.faults.empty() && !verdict.refusal.empty()) << name << " is refused, and nothing else";
+    }
     for (const Fault& fault : verdict.faults)
       EXPECT_EQ(to_string(fault.invariant), known) << name << ": " << fault.detail;
     ++seen;

@@ -57,6 +57,22 @@ TEST_F(DoctoredSegment, with_a_base_force_that_depth_and_rate_do_not_make) {
   expect_broken(Invariant::base_pushes);
 }
 
+// At the end the last term is 0.3 % of N: three times what a series that is cut off may lack.
+TEST_F(DoctoredSegment, with_a_base_force_whose_last_terms_are_too_large) {
+  Series& force = segment_.loaded[0].normal_force;
+  const double h = segment_.duration;
+  force[static_cast<std::size_t>(segment_.order)] +=
+      3e-3 * value_at(force, segment_.order, h) / std::pow(h, segment_.order);
+  expect_broken(Invariant::base_pushes);
+}
+
+// What rates are known to: their digits are those of the fastest motion, and with it of the force of the damper.
+TEST_F(DoctoredSegment, is_judged_by_the_digits_of_the_fastest_motion) {
+  segment_.loaded[0].normal_force[0] *= 1.0 + 1e-5;
+  EXPECT_TRUE(check_segment(system_, scene_.solver.tolerance, 1e3, segment_));
+  EXPECT_FALSE(check_segment(system_, scene_.solver.tolerance, 1e9, segment_));
+}
+
 TEST_F(DoctoredSegment, with_friction_beyond_the_cone) {
   for (double& c : segment_.loaded[0].tangential_force) c *= 1.0 + 1e-5;
   expect_broken(Invariant::friction_cone);
