@@ -569,6 +569,34 @@ TEST(UnequalMobilityOf, what_sticks_does_not_creep) {
   }
 }
 
+// Two corners hold a part nearly at rest. What is left of its motion along the face is rounding, and sets no step:
+// nothing changes faster than the base, at a rate of 13.
+TEST(UnequalMobilityOf, rest_is_no_reason_for_short_steps) {
+  const Scene scene = test::scene_of(R"(
+part: {half_width: 0.4, base_distance: 0.2, inertia: 0.1}
+slot: {clearance: 0.06}
+gripper: {stiffness: {x: 0, phi: 2}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 3e+01}
+base: {stiffness: {x: 2e+01, y: 2e+01}, damping: {x: 0, y: 8}, recovery: false}
+contacts: [corners]
+friction: {coefficient: 0.6}
+weight: 0
+excitation:
+  - {amplitude: 1, frequency: 0.07, phase: -8, direction: x, waveform: sine}
+  - {amplitude: 1, frequency: 1, phase: 0, direction: phi, waveform: sine}
+initial: {x: 1, y: 1, phi: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 5, aligned_depth: 0}
+solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+)");
+  int seen = 0;
+  test::run(scene, [&](const Segment& g) {
+    const auto sticks = [&](Site site) { return g.contacts[static_cast<std::size_t>(site)].slip == Slip::stick; };
+    if (!sticks(Site::b1) || !sticks(Site::b2) || g.event_count > 0 || g.end_time() >= scene.trial.time_limit) return;
+    ++seen;
+    EXPECT_GT(g.duration, 1e-2) << g.start.value();
+  });
+  EXPECT_GT(seen, 3);
+}
+
 // In balance, without a load along the face: corners whose levers differ by 1e-8 need no friction, and do not squeeze
 // the part with all they have to hold what rounding leaves of the balance.
 TEST(UnequalMobilityOf, a_part_in_balance_needs_no_friction) {
