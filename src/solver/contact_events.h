@@ -21,7 +21,8 @@ struct FoundEvents {
 };
 
 /// First event within [0, duration] of the segment, with all that coincide with it.
-FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
-                        const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives);
+[[gnu::noinline]] FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment,
+                                          const Pins& pins, const Recoveries& recoveries, const OutcomeGuards& outcomes,
+                                          const DriveForms& drives);
 
 }  // namespace vibratory_alignment

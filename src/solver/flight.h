@@ -12,7 +12,7 @@ class Flight {
  public:
   explicit Flight(std::size_t drive_count) : x_(drive_count), y_(drive_count), phi_(drive_count) {}
 
-  void begin(const System& system, const State& state, const DriveForms& drives, const Instant& now);
+  [[gnu::noinline]] void begin(const System& system, const State& state, const DriveForms& drives, const Instant& now);
 
   const Instant& start() const { return start_; }
   /// True where the closed form holds to roundoff in every coordinate.

@@ -16,8 +16,8 @@ struct FlightOutlook {
 
 /// Looks from time t of the flight, at which its state is `state`, at most `longest` ahead. `longest` is reached only
 /// when nothing happens until then; a shorter time without event tells nothing about what follows.
-FlightOutlook look_ahead(const System& system, const Flight& flight, double t, const State& state,
-                         const ContactStates& contacts, const Pins& pins, const OutcomeGuards& outcomes,
-                         double longest);
+[[gnu::noinline]] FlightOutlook look_ahead(const System& system, const Flight& flight, double t, const State& state,
+                                           const ContactStates& contacts, const Pins& pins,
+                                           const OutcomeGuards& outcomes, double longest);
 
 }  // namespace vibratory_alignment

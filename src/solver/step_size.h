@@ -10,7 +10,7 @@ namespace vibratory_alignment {
 /// largest leading term: the truncation error relative to each axis' own motion, whatever its scale.
 /// Likewise for T of sticking contacts, relative to T and to the force f N that it may reach.
 /// Infinity for what is at rest, or held by contacts: what rounding of their forces leaves has no time scale.
-double series_step(const System& system, const Segment& segment, double tolerance);
+[[gnu::noinline]] double series_step(const System& system, const Segment& segment, double tolerance);
 
 /// Longest time over which the last two terms of T of every contact in the tanh layer stay below `tolerance` times T
 /// and f N: where friction hardly moves the part, its velocities do not tell how far the series of T holds. Infinity
@@ -18,7 +18,7 @@ double series_step(const System& system, const Segment& segment, double toleranc
 double layer_force_step(const Segment& segment, double friction, double tolerance);
 
 /// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
-double pair_step(const PairSeries& series, int order, double tolerance);
+[[gnu::noinline]] double pair_step(const PairSeries& series, int order, double tolerance);
 
 /// Order of the series for a tolerance: each further order costs its share, each further digit is worth so many.
 int series_order(double tolerance);

@@ -28,7 +28,7 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   /// Books the current segment (peaks, energy, outcome) and computes the next one. False when the trial has ended.
-  bool advance();
+  [[gnu::noinline]] bool advance();
 
   /// The segment that the motion is in; valid after the first advance().
   const Segment& segment() const;
