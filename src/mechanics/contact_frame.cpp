@@ -1,5 +1,7 @@
 #include "mechanics/contact_frame.h"
 
+#include "mechanics/tilt.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -30,7 +32,8 @@ ContactFrame contact_frame(const System& system, Face face) {
 }
 
 Vec2 site_point(const System& system, const State& state, Site site) {
-  return site_point(system, state, site, std::cos(state.phi), std::sin(state.phi));
+  const auto [c, s] = tilt_of(state.phi);
+  return site_point(system, state, site, c, s);
 }
 
 Vec2 site_point(const System& system, const State& state, Site site, double c, double s) {
@@ -51,7 +54,7 @@ double damping_of(const System& system, Face face, double cos_phi, double sin_ph
 }
 
 ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face) {
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const auto [c, s] = tilt_of(state.phi);
   return contact_kinematics(system, state, site, face, site_point(system, state, site, c, s), c, s);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/holding_forces.h"
+#include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -92,7 +93,8 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
   Matrix3d &by_q = result.by_position, &by_v = result.by_velocity;
   by_q = -Vector3d(system.x.stiffness, system.y.stiffness, system.phi.stiffness).asDiagonal().toDenseMatrix();
   by_v = -Vector3d(system.x.damping, system.y.damping, system.phi.damping).asDiagonal().toDenseMatrix();
-  const double c = std::cos(state.phi), s = std::sin(state.phi), f = system.friction;
+  const auto [c, s] = tilt_of(state.phi);
+  const double f = system.friction;
   const Vector3d inverse(system.x.inverse_inertia, system.y.inverse_inertia, system.phi.inverse_inertia);
   std::array<Sticking, kSiteCount> stuck;
   int stuck_count = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/holding_forces.h"
+#include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -16,7 +17,7 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
   double fx = drive.x - system.x.damping * state.vx - system.x.stiffness * (state.x - system.x.anchor);
   double fy = drive.y - system.y.damping * state.vy - system.y.stiffness * (state.y - system.y.anchor) - system.weight;
   double moment = drive.phi - system.phi.damping * state.omega - system.phi.stiffness * (state.phi - system.phi.anchor);
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const auto [c, s] = tilt_of(state.phi);
   std::array<ContactKinematics, kSiteCount> kinematics;
   std::array<int, kSiteCount> sticking{};
   int sticking_count = 0;

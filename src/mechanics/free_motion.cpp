@@ -33,8 +33,8 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   decay_ = 0.5 * h / m;
   // (a - w)(a + w) loses no digits near critical damping
   pull_ = k / m;
-  const double frequency = std::sqrt(pull_);
-  square_ = (decay_ - frequency) * (decay_ + frequency);
+  frequency_ = std::sqrt(pull_);
+  square_ = (decay_ - frequency_) * (decay_ + frequency_);
   root_ = std::sqrt(std::abs(square_));
 }
 
@@ -57,7 +57,7 @@ void FreeMotion::add(const DriveForm& form) {
 
 void FreeMotion::settle(Waves& waves) {
   if (!axis_.moves) return;
-  early_rate_ = square_ > 0.0 ? decay_ + root_ : std::hypot(decay_, root_);
+  early_rate_ = square_ > 0.0 ? decay_ + root_ : frequency_;
   for (const Sine& sine : sines_) late_rate_ = std::max(late_rate_, sine.frequency);
   early_rate_ = std::max(early_rate_, late_rate_);
   if (!exact_) return;
@@ -155,7 +155,7 @@ void FreeMotion::find_bounds() {
   };
   for (const Sine& sine : sines_) add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
   if (square_ < 0.0) {
-    fade({std::hypot(c, (s + decay_ * c) / root_), std::hypot(decay_, root_), decay_});
+    fade({std::hypot(c, (s + decay_ * c) / root_), frequency_, decay_});
   } else if (square_ > 0.0) {
     // the two decaying exponentials
     const double fast = decay_ + root_, slow = slow_rate();

@@ -73,7 +73,7 @@ class FreeMotion {
   double start_q_ = 0.0, start_v_ = 0.0;
   double constant_ = 0.0, slope_ = 0.0;
   bool exact_ = true;
-  double pull_ = 0.0;                                 ///< k/m
+  double pull_ = 0.0, frequency_ = 0.0;               ///< k/m and its root
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
   Mode slow_;                                         ///< the slow exponential of an overdamped axis

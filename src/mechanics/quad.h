@@ -1,8 +1,10 @@
-// Four numbers at once: one register where the processor has AVX, else two. The results are the same to the bit.
+// Two and four numbers at once, the latter in one register where the processor has AVX, else in two. The results are
+// the same to the bit.
 #pragma once
 
 namespace vibratory_alignment {
 
+using Pair = double __attribute__((vector_size(16)));
 using Quad = double __attribute__((vector_size(32)));
 
 /// For what has to become part of a function that is compiled for AVX.

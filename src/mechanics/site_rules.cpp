@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mechanics/tilt.h"
+
 namespace vibratory_alignment {
 
 Region site_region(const System& system, Site site, int half) {
@@ -77,7 +79,7 @@ bool site_in_use(const System& system, Site site) {
 }
 
 void place_contacts(const System& system, const State& state, ContactStates& contacts) {
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const auto [c, s] = tilt_of(state.phi);
   for (int i = 0; i < kSiteCount; ++i) {
     const Site site = static_cast<Site>(i);
     ContactState& contact = contacts[i];

@@ -7,6 +7,7 @@
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/site_rules.h"
+#include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -22,7 +23,7 @@ constexpr double kBalanced = 1e-6;
 /// y at which the edge at distance rx from C (along x) lies on the lower boundary of the part.
 std::optional<double> edge_touch(const System& system, double rx, double phi) {
   const double a = system.half_width, b = system.base_distance;
-  const double c = std::cos(phi), s = std::sin(phi);
+  const auto [c, s] = tilt_of(phi);
   std::optional<double> highest;
   const auto offer = [&](double y) {
     if (std::abs(y) <= kFarthestTouch * (a + b) && (!highest || y > *highest)) highest = y;
@@ -98,7 +99,7 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
   state.x = x;
   state.y = y;
   state.phi = phi;
-  const double c = std::cos(phi), s = std::sin(phi);
+  const auto [c, s] = tilt_of(phi);
   ContactStates contacts{};
   place_contacts(system, state, contacts);
   double force_x = -system.x.stiffness * (x - system.x.anchor),

@@ -2,18 +2,20 @@
 // the state share: the solvers with a fixed step evaluate many states.
 #pragma once
 
-#include <cmath>
-
 #include "mechanics/contact_frame.h"
+#include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
 
 /// A state with the direction of its body axis e1 = (cos phi, sin phi).
 struct PlacedState {
-  explicit PlacedState(const State& s) : state(s), cos_phi(std::cos(s.phi)), sin_phi(std::sin(s.phi)) {}
+  explicit PlacedState(const State& s) : PlacedState(s, tilt_of(s.phi)) {}
 
   State state;
   double cos_phi, sin_phi;
+
+ private:
+  PlacedState(const State& s, const Tilt& tilt) : state(s), cos_phi(tilt.cos), sin_phi(tilt.sin) {}
 };
 
 struct ContactPoint : ContactKinematics {

@@ -141,6 +141,15 @@ double last_terms(const Segment& s) {
   return std::abs(sum);
 }
 
+/// What is left of the deformations of a base after `duration`.
+void recover(double duration, Recoveries& recoveries) {
+  for (Recovery& recovery : recoveries) {
+    if (recovery.deformation == 0.0) continue;
+    recovery.deformation *= std::exp(-recovery.rate * duration);
+    if (recovery.deformation < kNoDeformation) recovery = {};
+  }
+}
+
 bool is_finite(const Segment& s) { return std::isfinite(last_terms(s)); }
 
 bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
@@ -241,7 +250,11 @@ void EventSolver::go_to_end() {
   now_ = end;
   if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
   state_ = segment_.end;
-  mode_ = next_mode_;
+  if (mode_changes_) {
+    mode_ = next_mode_;
+  } else if (segment_.duration > 0.0) {
+    mode_.pins = {};
+  }
   if (drives_change_) drives_ = next_drives_;
   drives_change_ = false;
   counts_.events += segment_.event_count;
@@ -473,12 +486,6 @@ const Segment& EventSolver::advance(double limit) {
 
 void EventSolver::prepare_next(FoundEvents& found, bool kink) {
   const Instant end = segment_.start + segment_.duration;
-  next_mode_ = mode_;
-  for (Recovery& recovery : next_mode_.recoveries) {
-    if (recovery.deformation == 0.0) continue;
-    recovery.deformation *= std::exp(-recovery.rate * segment_.duration);
-    if (recovery.deformation < kNoDeformation) recovery = {};
-  }
   if (drives_change_) next_drives_ = drives_;
   drives_change_ = kink;
   if (kink)
@@ -487,10 +494,13 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
 
   segment_.event_count = 0;
   forms_known_ = found.count > 0 || kink;
+  mode_changes_ = forms_known_ || system_.recovery;
+  if (mode_changes_) next_mode_ = mode_;
+  if (system_.recovery) recover(segment_.duration, next_mode_.recoveries);
   if (forms_known_) {
     forms_ = forms_at(next_drives_, end);
-    next_mode_ = apply_events(system_, segment_, next_mode_, forms_, friction_, found);
-  } else if (segment_.duration > 0.0) {
+    apply_events(system_, segment_, forms_, friction_, found, next_mode_);
+  } else if (mode_changes_ && segment_.duration > 0.0) {
     next_mode_.pins = {};
   }
   for (int i = 0; i < found.count; ++i)
@@ -528,6 +538,11 @@ void EventSolver::forces_jump() {
   implicit_.forget();
   if (!started_) return;
   const Instant end = segment_.start + segment_.duration;
+  if (!mode_changes_) {
+    next_mode_ = mode_;
+    if (segment_.duration > 0.0) next_mode_.pins = {};
+    mode_changes_ = true;
+  }
   decide_friction_anew(system_, segment_, forms_at(next_drives_, end), friction_, next_mode_);
 }
 

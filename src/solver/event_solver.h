@@ -17,7 +17,7 @@ class EventSolver final : public Solver {
   EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance, long step_limit,
               ContactMethod method = ContactMethod::series);
 
-  const Segment& advance(double limit) override;
+  [[gnu::noinline]] const Segment& advance(double limit) override;
   const Segment& segment() const override { return segment_; }
   void cut(double duration) override;
   void set_excitations(const std::vector<Excitation>& excitations) override;
@@ -51,6 +51,7 @@ class EventSolver final : public Solver {
   Instant now_;                   ///< start of the current segment
   State state_;                   ///< at now_
   ContactMode mode_, next_mode_;  ///< during the segment, and from its end on
+  bool mode_changes_ = false;     ///< next_mode_ is another one than mode_, which only loses its pins
   std::vector<Drive> drives_, next_drives_;
   bool drives_change_ = false;  ///< next_drives_ are others than drives_
   DriveForms forms_;            ///< of the drives, from now_ on; once the segment's end is prepared, from there on

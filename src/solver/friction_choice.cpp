@@ -140,15 +140,19 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
 /// The usual case, one contact: V' with friction against either way of sliding decides, where it is far from zero.
 bool FrictionChoice::decide_alone(const State& state, const DriveForms& drives, std::size_t site, ContactMode& mode) {
   probe_.contacts = mode.contacts;
-  double rates[2];
-  for (const Slip slip : {Slip::plus, Slip::minus}) {
-    probe_.contacts[site].slip = slip;
-    series_.expand_contact(state, drives, 1, probe_);
-    int i = 0;
-    while (static_cast<std::size_t>(probe_.loaded[i].site) != site) ++i;
-    rates[slip == Slip::plus ? 0 : 1] = probe_.loaded[i].slip_velocity[1];
-  }
-  const double plus = rates[0], minus = rates[1];
+  probe_.contacts[site].slip = Slip::plus;
+  series_.expand_contact(state, drives, 1, probe_);
+  int i = 0;
+  while (static_cast<std::size_t>(probe_.loaded[i].site) != site) ++i;
+  const double normal_force = probe_.loaded[i].normal_force[0];
+  // what a force of one along t adds to V'
+  const ContactKinematics k = contact_kinematics(system_, state, static_cast<Site>(site), probe_.contacts[site].face);
+  const double arm = k.lever.x * k.tangent.y - k.lever.y * k.tangent.x;
+  const double mobility = k.tangent.x * k.tangent.x * system_.x.inverse_inertia +
+                          k.tangent.y * k.tangent.y * system_.y.inverse_inertia +
+                          arm * arm * system_.phi.inverse_inertia;
+  const double plus = probe_.loaded[i].slip_velocity[1];
+  const double minus = plus + 2.0 * system_.friction * normal_force * mobility;
   const double doubt = kDoubt * (series_.slip_rate_size(probe_) + std::abs(plus) + std::abs(minus));
   if (!(std::abs(plus) > doubt && std::abs(minus) > doubt)) return false;
   mode.contacts[site].slip = plus > 0.0 ? Slip::plus : minus < 0.0 ? Slip::minus : Slip::stick;

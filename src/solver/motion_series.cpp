@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/tilt.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -15,8 +17,9 @@ void add_drive(const DriveForm& form, int order, Series& series) {
   double s = form.amplitude * form.sin_phase, c = form.amplitude * form.cos_phase, s_before = 0.0, c_before = 0.0;
   for (int k = 0; k <= order; ++k) {
     series[k] += s;
-    const double s_next = (form.frequency * c + form.rate * c_before) * kInverse[k + 1];
-    const double c_next = -(form.frequency * s + form.rate * s_before) * kInverse[k + 1];
+    const double frequency = kInverse[k + 1] * form.frequency, rate = kInverse[k + 1] * form.rate;
+    const double s_next = frequency * c + rate * c_before;
+    const double c_next = -(frequency * s + rate * s_before);
     s_before = s;
     c_before = c;
     s = s_next;
@@ -52,10 +55,10 @@ double turning_push(const Series& stiffness, const Series& damping, const Series
 void MotionSeries::restart(int order, Segment& segment) {
   order_ = order;
   segment.order = order;
-  const double c = std::cos(segment.phi[0]), s = std::sin(segment.phi[0]);
+  const auto [c, s] = tilt_of(segment.phi[0]);
   segment.cos_phi[0] = c;
   segment.sin_phi[0] = s;
-  direction_[0] = Pair(c, s);
+  direction_[0] = Pair{c, s};
   known_trig_ = 0;
   known_centre_ = -1;
   known_point_.fill(-1);
@@ -112,7 +115,7 @@ void MotionSeries::trig_term(int k, Segment& segment) {
     c = -product[1];
     s = product[0];
   }
-  direction_[k] = Pair(c, s);
+  direction_[k] = Pair{c, s};
   segment.cos_phi[k] = c;
   segment.sin_phi[k] = s;
 }
@@ -126,7 +129,7 @@ void MotionSeries::centre_term(int k, const Segment& segment) {
       along += segment.x[j] * direction_[k - j];
       across += segment.y[j] * direction_[k - j];
     }
-  centre_[k] = Pair(along[0] + across[1], across[0] - along[1]);
+  centre_[k] = Pair{along[0] + across[1], across[0] - along[1]};
 }
 
 void MotionSeries::point_term(int point, int k, const Segment& segment) {
@@ -135,12 +138,12 @@ void MotionSeries::point_term(int point, int k, const Segment& segment) {
   const double side = point % 2 == 0 ? 1.0 : -1.0;
   if (point >= 2) {
     const double beta = side * system_.half_width, b = system_.base_distance;
-    points_[point][k] = Pair(segment.x[k] + beta * d[0] + b * d[1], segment.y[k] + beta * d[1] - b * d[0]);
+    points_[point][k] = Pair{segment.x[k] + beta * d[0] + b * d[1], segment.y[k] + beta * d[1] - b * d[0]};
     return;
   }
   if (known_centre_ < k) centre_term(k, segment);
   const double l = side * system_.slot_half_width;
-  points_[point][k] = Pair(l * d[0] - centre_[k][0], -l * d[1] - centre_[k][1]);
+  points_[point][k] = Pair{l * d[0] - centre_[k][0], -l * d[1] - centre_[k][1]};
 }
 
 const PairSeries& MotionSeries::point(Site site, Segment& segment) {
@@ -200,7 +203,7 @@ void MotionSeries::direction_terms(Contact& contact, int k) const {
   if (is_edge(contact.site)) {
     // body components (a, b): world a (c, s) + b (-s, c), moment b u - a w
     const Pair& p = points_[contact.point][k];
-    const auto force = [&](double a, double b) { return Pair(a * d[0] - b * d[1], a * d[1] + b * d[0]); };
+    const auto force = [&](double a, double b) { return Pair{a * d[0] - b * d[1], a * d[1] + b * d[0]}; };
     contact.push[k] = force(contact.force1, contact.force2);
     contact.push_moment[k] = contact.force2 * p[0] - contact.force1 * p[1];
     if (!contact.separate_t) return;
@@ -210,10 +213,10 @@ void MotionSeries::direction_terms(Contact& contact, int k) const {
     // world components (a, b), moment b r_x - a r_y
     const double beta = side_of(contact.site) * system_.half_width, b0 = system_.base_distance;
     const double rx = beta * d[0] + b0 * d[1], ry = beta * d[1] - b0 * d[0], one = k == 0 ? 1.0 : 0.0;
-    contact.push[k] = Pair(contact.force1 * one, contact.force2 * one);
+    contact.push[k] = Pair{contact.force1 * one, contact.force2 * one};
     contact.push_moment[k] = contact.force2 * rx - contact.force1 * ry;
     if (!contact.separate_t) return;
-    contact.drag[k] = Pair(f.t1() * one, f.t2() * one);
+    contact.drag[k] = Pair{f.t1() * one, f.t2() * one};
     contact.drag_moment[k] = f.t2() * rx - f.t1() * ry;
   }
 }

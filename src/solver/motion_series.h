@@ -43,7 +43,7 @@ class MotionSeries {
   void expand_free(const State& start, const DriveForms& drives, int order, Segment& segment);
 
   /// Fills the segment with its loaded contacts (segment.contacts) from `start`. Sticking contacts have V = 0 exactly.
-  void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
+  [[gnu::noinline]] void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
 
   /// Takes over a segment whose x ... omega were made elsewhere, for what point() and direction() tell about it.
   void adopt(Segment& segment);
@@ -90,7 +90,7 @@ class MotionSeries {
   };
 
   struct Load {  ///< forces and moment of all contacts, one power
-    Pair force{0.0, 0.0};
+    Pair force{};
     double moment = 0.0;
   };
 

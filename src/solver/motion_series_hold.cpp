@@ -78,7 +78,7 @@ double MotionSeries::motion_size(int k, int known, const Segment& segment) const
   for (int j = 0; j <= known; ++j) {
     const double reach =
         j == 0 ? system_.half_width + system_.base_distance : std::abs(segment.x[j]) + std::abs(segment.y[j]);
-    sum += reach * direction_[k + 2 - j].abs().sum();
+    sum += reach * (std::abs(direction_[k + 2 - j][0]) + std::abs(direction_[k + 2 - j][1]));
   }
   return (k + 2) * (k + 1) * sum;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "solver/solver.h"
 
@@ -16,7 +17,7 @@ struct Range {
   double low, high;
 };
 
-/// Two coefficients at a time; an odd last one alone.
+/// Two coefficients at a time, from an even power on, in which they are written and read alike; an odd last one alone.
 template <typename TwoTerms, typename OneTerm>
 void for_powers(int from, int order, const TwoTerms& two, const OneTerm& one) {
   int k = from;
@@ -24,39 +25,50 @@ void for_powers(int from, int order, const TwoTerms& two, const OneTerm& one) {
   if (k == order) one(k);
 }
 
-Pair pair_at(const Series& g, int k) { return Eigen::Map<const Pair>(&g[static_cast<std::size_t>(k)]); }
+Pair pair_at(const Series& g, int k) {
+  Pair pair;
+  std::memcpy(&pair, &g[static_cast<std::size_t>(k)], sizeof pair);
+  return pair;
+}
+
+void set_pair(const Pair& pair, int k, Series& g) { std::memcpy(&g[static_cast<std::size_t>(k)], &pair, sizeof pair); }
+
+/// Of each number, what it is below zero, and above; what is not a number stays so.
+Pair negative_part(const Pair& pair) { return pair > Pair{} ? Pair{} : pair; }
+Pair positive_part(const Pair& pair) { return pair < Pair{} ? Pair{} : pair; }
 
 Range range_on_unit(const Series& g, int order) {
-  Pair low(0.0, 0.0), high(0.0, 0.0);
+  const double first = order > 0 ? g[1] : 0.0;
+  Pair low{0.0, std::min(first, 0.0)}, high{0.0, std::max(first, 0.0)};
   Range range{g[0], g[0]};
   for_powers(
-      1, order,
+      2, order,
       [&](int k) {
         const Pair term = pair_at(g, k);
-        low += term.min(0.0);
-        high += term.max(0.0);
+        low += negative_part(term);
+        high += positive_part(term);
       },
       [&](int k) { (g[k] < 0.0 ? range.low : range.high) += g[k]; });
-  range.low += low.sum();
-  range.high += high.sum();
+  range.low += (low[0] + low[1]);
+  range.high += (high[0] + high[1]);
   return range;
 }
 
 /// Bounds of the derivative on [0, 1].
 Range slope_on_unit(const Series& g, int order) {
-  Pair low(0.0, 0.0), high(0.0, 0.0), power(2.0, 3.0);
+  Pair low{}, high{}, power{2.0, 3.0};
   Range range{g[1], g[1]};
   for_powers(
       2, order,
       [&](int k) {
         const Pair term = pair_at(g, k) * power;
-        low += term.min(0.0);
-        high += term.max(0.0);
+        low += negative_part(term);
+        high += positive_part(term);
         power += 2.0;
       },
       [&](int k) { (g[k] < 0.0 ? range.low : range.high) += k * g[k]; });
-  range.low += low.sum();
-  range.high += high.sum();
+  range.low += (low[0] + low[1]);
+  range.high += (high[0] + high[1]);
   return range;
 }
 
@@ -69,32 +81,49 @@ void require_finite(const Series& unit, int order) {
 
 /// g(t h) as a polynomial on [0, 1]; its least value there, at least.
 double scale_to_unit(const Series& g, int order, double h, Series& unit) {
-  Pair power(1.0, h), low(0.0, 0.0);
+  Pair power{1.0, h}, low{};
   const double square = h * h;
   for_powers(
       0, order,
       [&](int k) {
         const Pair term = pair_at(g, k) * power;
-        unit[k] = term[0];
-        unit[k + 1] = term[1];
-        low += term.min(0.0);
+        set_pair(term, k, unit);
+        low += negative_part(term);
         power *= square;
       },
       [&](int k) {
         unit[k] = g[k] * power[0];
         low[0] += std::min(unit[k], 0.0);
       });
-  return std::max(unit[0], 0.0) + low.sum();
+  return std::max(unit[0], 0.0) + (low[0] + low[1]);
 }
 
 /// The left and right half of [0, 1], each as a polynomial on [0, 1].
 void left_half(const Series& g, int order, Series& half) { scale_to_unit(g, order, 0.5, half); }
 
+/// g(1 + t) by repeated synthetic division.
+template <int kOrder>
+void shift_by_one(Series& g) {
+  std::array<double, kOrder + 1> shifted;
+  std::copy(g.begin(), g.begin() + kOrder + 1, shifted.begin());
+  for (int i = 0; i < kOrder; ++i)
+    for (int k = kOrder - 1; k >= i; --k) shifted[k] += shifted[k + 1];
+  std::copy(shifted.begin(), shifted.end(), g.begin());
+}
+
+/// g((1 + t)/2). Loops of a length that is known beforehand take half the time.
 void right_half(const Series& g, int order, Series& half) {
-  // g((1 + t)/2): scale, then shift by 1 with repeated synthetic division
   scale_to_unit(g, order, 0.5, half);
-  for (int i = 0; i < order; ++i)
-    for (int k = order - 1; k >= i; --k) half[k] += half[k + 1];
+  const int length = (order + 3) / 4 * 4;
+  std::fill(half.begin() + order + 1, half.begin() + length + 1, 0.0);
+  switch (length) {
+    case 4: return shift_by_one<4>(half);
+    case 8: return shift_by_one<8>(half);
+    case 12: return shift_by_one<12>(half);
+    case 16: return shift_by_one<16>(half);
+    case 20: return shift_by_one<20>(half);
+    default: return shift_by_one<kMaxOrder>(half);
+  }
 }
 
 /// Root of g on [0, 1], where g(0) > 0 > g(1) and g falls throughout: Halley's iteration kept inside a shrinking

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include <Eigen/Core>
+#include "mechanics/quad.h"
 
 namespace vibratory_alignment {
 
@@ -12,8 +12,12 @@ constexpr int kMaxOrder = 24;
 using Series = std::array<double, kMaxOrder + 3>;
 
 /// Two series side by side, for what comes in pairs: x and y, cos and sin. Summed two at a time by the processor.
-using Pair = Eigen::Array2d;
-using PairSeries = std::array<Pair, kMaxOrder + 3>;
+struct PairSeries {
+  Pair coefficient[kMaxOrder + 3];
+
+  Pair& operator[](int k) { return coefficient[k]; }
+  const Pair& operator[](int k) const { return coefficient[k]; }
+};
 
 /// 1/k.
 inline constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
@@ -25,7 +29,7 @@ inline constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
 /// Coefficient k of the product of a pair of series with a series. Two sums, so that additions do not wait for one
 /// another.
 inline Pair product_term(const PairSeries& a, const Series& b, int k) {
-  Pair even = a[0] * b[k], odd(0.0, 0.0);
+  Pair even = a[0] * b[k], odd{};
   int j = 1;
   for (; j < k; j += 2) {
     odd += a[j] * b[k - j];

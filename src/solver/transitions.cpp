@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
+#include "mechanics/tilt.h"
 #include "solver/coincidence.h"
 
 namespace vibratory_alignment {
@@ -101,7 +102,7 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
 
 /// True when k d + h d' < 0, by more than rounding.
 bool base_pulls(const System& system, const State& state, Site site, Face face) {
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const auto [c, s] = tilt_of(state.phi);
   const ContactKinematics k = contact_kinematics(system, state, site, face);
   const double spring = stiffness_of(system, face, c, s) * k.depth;
   return spring + damping_of(system, face, c, s) * k.depth_rate < -kPushRounding * spring;
@@ -119,16 +120,15 @@ void pin_limit(const System& system, const Segment& segment, Site site, SitePins
 /// A contact without base damping along its normal: N starts and ends at zero depth. So does it, but for nothing, where
 /// a base that recovers does so at once.
 bool is_undamped(const System& system, const State& state, Face face) {
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const auto [c, s] = tilt_of(state.phi);
   const double damping = damping_of(system, face, c, s);
   return damping == 0.0 || (system.recovery && damping * kFastestRecovery < stiffness_of(system, face, c, s));
 }
 
 }  // namespace
 
-ContactMode apply_events(const System& system, const Segment& segment, const ContactMode& before,
-                         const DriveForms& drives_at_end, FrictionChoice& friction, FoundEvents& events) {
-  ContactMode mode = before;
+void apply_events(const System& system, const Segment& segment, const DriveForms& drives_at_end,
+                  FrictionChoice& friction, FoundEvents& events, ContactMode& mode) {
   // what was zero at the start no longer is, unless no time has passed
   if (!is_instant(system, segment)) mode.pins = {};
   const State& state = segment.end;
@@ -211,7 +211,6 @@ ContactMode apply_events(const System& system, const Segment& segment, const Con
         mode.contacts[static_cast<std::size_t>(event.site)].slip == Slip::stick)
       event.kind = EventKind::stick;
   }
-  return mode;
 }
 
 double excess_friction(const System& system, const Segment& segment, double step) {
@@ -245,7 +244,7 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
 
 Recovery release_recovery(const System& system, const State& state, Site site, Face face) {
   if (is_undamped(system, state, face)) return {};
-  const double c = std::cos(state.phi), s = std::sin(state.phi);
+  const auto [c, s] = tilt_of(state.phi);
   return {contact_kinematics(system, state, site, face).depth,
           stiffness_of(system, face, c, s) / damping_of(system, face, c, s), face};
 }

@@ -1,4 +1,4 @@
-// What an event does: a pure function from the contacts before it to the contacts after it
+// What an event does: it changes the contacts before it to the contacts after it
 // (docs/hybrid_step.md "Transitions").
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace vibratory_alignment {
 
-/// The mode after `events` at the segment's end state; `before` is the mode during the segment with its recoveries
-/// as they are at the end. Friction is decided anew for every loaded contact that sticks or whose V is zero. Event
-/// kinds are made definite: a V = 0 event becomes stick or slip_reversal.
-ContactMode apply_events(const System& system, const Segment& segment, const ContactMode& before,
-                         const DriveForms& drives_at_end, FrictionChoice& friction, FoundEvents& events);
+/// Changes `mode`, that during the segment with its recoveries as they are at the end, to that after `events` at the
+/// segment's end state. Friction is decided anew for every loaded contact that sticks or whose V is zero. Event kinds
+/// are made definite: a V = 0 event becomes stick or slip_reversal.
+[[gnu::noinline]] void apply_events(const System& system, const Segment& segment, const DriveForms& drives_at_end,
+                                    FrictionChoice& friction, FoundEvents& events, ContactMode& mode);
 
 /// Decides friction anew at the segment's end: the forces have jumped without an event.
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,

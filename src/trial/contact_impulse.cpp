@@ -11,14 +11,14 @@ namespace {
 constexpr double kSame = 1e-15;
 
 /// a + i b times c + i d.
-Pair product(const Pair& a, const Pair& b) { return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()}; }
+Pair product(const Pair& a, const Pair& b) { return Pair{a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]}; }
 
 /// Integral of force times e1 = (cos phi, sin phi).
 Pair turned_integral(const Series& force, const Segment& segment, double from, double to) {
   const int order = segment.order;
   PairSeries e1;
-  for (int k = 0; k <= order; ++k) e1[k] = {segment.cos_phi[k], segment.sin_phi[k]};
-  Pair at_from(0.0, 0.0), at_to(0.0, 0.0);
+  for (int k = 0; k <= order; ++k) e1[k] = Pair{segment.cos_phi[k], segment.sin_phi[k]};
+  Pair at_from{}, at_to{};
   for (int k = order; k >= 0; --k) {
     const Pair term = kInverse[static_cast<std::size_t>(k + 1)] * product_term(e1, force, k);
     at_from = at_from * from + term;
@@ -53,17 +53,16 @@ ContactImpulse contact_impulse(const System& system, const Segment& segment, int
   impulse.normal = integral(contact.normal_force, segment.order, from, to);
   impulse.friction = integral(contact.tangential_force, segment.order, from, to);
   // along the frame's first axis, which turns with the part or is that of the world
-  Pair normal(impulse.normal, 0.0), friction(impulse.friction, 0.0);
+  Pair normal{impulse.normal, 0.0}, friction{impulse.friction, 0.0};
   if (is_part_face(face)) {
     normal = turned_integral(contact.normal_force, segment, from, to);
-    friction = is_proportional(contact, segment.order)
-                   ? Pair(contact.tangential_force[0] / contact.normal_force[0] * normal)
-                   : turned_integral(contact.tangential_force, segment, from, to);
+    friction = is_proportional(contact, segment.order) ? contact.tangential_force[0] / contact.normal_force[0] * normal
+                                                       : turned_integral(contact.tangential_force, segment, from, to);
   }
   const ContactFrame frame = contact_frame(system, face);
-  const Pair world = product({frame.n1, frame.n2}, normal) + product({frame.t1(), frame.t2()}, friction);
-  impulse.x = world.x();
-  impulse.y = world.y();
+  const Pair world = product(Pair{frame.n1, frame.n2}, normal) + product(Pair{frame.t1(), frame.t2()}, friction);
+  impulse.x = world[0];
+  impulse.y = world[1];
   return impulse;
 }
 

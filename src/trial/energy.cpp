@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
+#include "mechanics/tilt.h"
 #include "solver/flight.h"
 #include "solver/solver.h"
 
@@ -60,8 +61,8 @@ void EnergyAccount::book(const Segment& segment) {
 
   // base springs: what jumps between two segments has been dropped (or brought back)
   std::array<double, kSiteCount> at_start{}, at_end{};
-  const double c0 = std::cos(segment.begin.phi), s0 = std::sin(segment.begin.phi);
-  const double c1 = std::cos(segment.end.phi), s1 = std::sin(segment.end.phi);
+  const auto [c0, s0] = tilt_of(segment.begin.phi);
+  const auto [c1, s1] = tilt_of(segment.end.phi);
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     const auto site = static_cast<std::size_t>(contact.site);
@@ -103,7 +104,7 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
   ledger_.gripper_loss += weight * (system_.x.damping * s.vx * s.vx + system_.y.damping * s.vy * s.vy +
                                     system_.phi.damping * s.omega * s.omega);
   if (segment.loaded_count == 0) return;
-  const double sin_phi = std::sin(s.phi), cos_phi = std::cos(s.phi);
+  const auto [cos_phi, sin_phi] = tilt_of(s.phi);
   const int order = segment.order;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];

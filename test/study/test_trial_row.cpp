@@ -81,7 +81,7 @@ TEST(TrialRow, OneImpactHasTheImpulseAndTimeOfTheHalfSwing) {
     EXPECT_NEAR(row.first_impact[0], std::acos(0.0), 1e-12);
     EXPECT_NEAR(row.contact_time[0], std::acos(-1.0) / std::sqrt(k + 1.0), 1e-10);
     EXPECT_NEAR(row.normal_impulse[0], 2.0 * 0.3 * k / (k + 1.0), 1e-10);
-    EXPECT_EQ(row.normal_impulse[0], row.impulse_y[0]);
+    EXPECT_DOUBLE_EQ(row.normal_impulse[0], row.impulse_y[0]);
     for (std::size_t spot = 1; spot < kSpotCount; ++spot) {
       EXPECT_EQ(row.contact_time[spot], 0.0);
       EXPECT_EQ(row.normal_impulse[spot], 0.0);
