@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
+#include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -18,12 +19,19 @@ constexpr int kMostLeaps = 16;
 /// Halvings with which the end of a leap is found; what is lost is time, never a touch.
 constexpr int kHalvings = 8;
 
-/// A landing is looked for until so many times its estimate.
-constexpr double kLandingSpan = 1.5;
+/// The end of an unloaded contact is looked for until so many times its estimate.
+constexpr double kClosingSpan = 1.5;
+
+/// A landing is looked for where its estimate is at most so many times what is known to be free.
+constexpr double kFarthestLanding = 2.5;
+
+/// A point touches a face alone where it is clear of corners, and all other points are clear of their faces, by this
+/// part of the lengths of the bodies.
+constexpr double kClear = 1e-6;
 
 /// Halley's method has arrived when its step is this small beside the span: the next would be its cube, or with an
 /// estimated acceleration a part of its square.
-constexpr double kLastStep = 1e-7;
+constexpr double kLastStep = 1e-9;
 constexpr int kMostSteps = 8;
 
 /// A condition ahead: value + rate s + 1/2 acceleration s^2, with an error of at most 1/6 jerk s^3.
@@ -42,10 +50,13 @@ struct Curve {
   /// True when the curve surely rises on all of [0, span].
   bool rises(double span) const { return rate + span * (std::min(acceleration, 0.0) - 0.5 * span * jerk) > 0.0; }
 
-  /// First positive zero of value + rate s + 1/2 acceleration s^2 for value < 0, rate > 0; infinity if there is none.
+  /// First positive zero of value + rate s + 1/2 acceleration s^2 for value < 0; infinity if there is none.
   double estimated_rise() const {
     const double discriminant = rate * rate - 2.0 * acceleration * value;
-    return discriminant < 0.0 ? INFINITY : -2.0 * value / (rate + std::sqrt(discriminant));
+    if (discriminant < 0.0) return INFINITY;
+    const double root = std::sqrt(discriminant);
+    if (rate > 0.0) return -2.0 * value / (rate + root);
+    return acceleration > 0.0 ? (root - rate) / acceleration : INFINITY;
   }
 
   /// Time in [0, longest] up to which the curve surely stays at or below zero. `from_zero`: it starts at zero and is
@@ -86,35 +97,48 @@ struct PointMotion {
 
 Vec2 turned(const Vec2& v) { return {-v.y, v.x}; }
 
-/// The flight as seen at one of its times.
+/// Time in which an event surely does not happen, and the length by which it does not now.
+struct Clearance {
+  double time = INFINITY, gap = INFINITY;
+};
+
+/// The flight as seen at one of its times, ahead or back.
 class View {
  public:
-  View(const System& system, const Flight& flight, double t, const Flight::Motion& motion, double longest)
+  View(const System& system, const Flight::Motion& motion, double longest, const Flight::Bounds& bounds)
       : system_(system),
         state_(motion.state),
         longest_(longest),
-        c_(std::cos(state_.phi)),
-        s_(std::sin(state_.phi)),
+        tilt_(tilt_of(state_.phi)),
         acceleration_{motion.ax, motion.ay},
         turn_acceleration_(motion.alpha),
-        bounds_(flight.bounds(t, t + longest)) {}
+        bounds_(bounds) {}
+
+  /// From `motion`, to which this view reaches, back as far as `longest`: time runs the other way, and rates with it.
+  View back_from(Flight::Motion motion, double longest) const {
+    motion.state.vx = -motion.state.vx;
+    motion.state.vy = -motion.state.vy;
+    motion.state.omega = -motion.state.omega;
+    return {system_, motion, longest, bounds_};
+  }
 
   double longest() const { return longest_; }
 
   PointMotion point(Site site) const {
+    const auto [c, s] = tilt_;
     PointMotion m;
     m.jerk = bounds_.x.third + bounds_.y.third;
     if (is_edge(site)) {
       // body coordinates: r = A - C turned back by phi
       const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
       const Vec2& a = acceleration_;
-      m.p = {rx * c_ + ry * s_, ry * c_ - rx * s_};
-      m.rate = {-(state_.vx * c_ + state_.vy * s_), state_.vx * s_ - state_.vy * c_};
-      m.acceleration = {-(a.x * c_ + a.y * s_), a.x * s_ - a.y * c_};
+      m.p = {rx * c + ry * s, ry * c - rx * s};
+      m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
+      m.acceleration = {-(a.x * c + a.y * s), a.x * s - a.y * c};
       if (system_.phi.moves) turn_edge(m);
     } else {
       const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-      const Vec2 r{beta * c_ + b * s_, beta * s_ - b * c_};
+      const Vec2 r{beta * c + b * s, beta * s - b * c};
       m.p = {state_.x + r.x, state_.y + r.y};
       m.rate = {state_.vx, state_.vy};
       m.acceleration = acceleration_;
@@ -123,8 +147,9 @@ class View {
     return m;
   }
 
-  /// Time in which the point surely stays out of the region: as long as any one of its conditions fails.
-  double time_outside(const PointMotion& m, const Region& region, Face pinned) const {
+  /// How long the point surely stays out of the region, as long as any one of its conditions fails, and how far out it
+  /// is now.
+  Clearance clearance(const PointMotion& m, const Region& region, Face pinned) const {
     // what is farthest from holding keeps the point out for longest: often no other condition has to be asked
     int farthest = 0;
     for (int j = 1; j < region.count; ++j)
@@ -137,11 +162,11 @@ class View {
     double time = time_below(farthest);
     for (int j = 0; j < region.count && time < longest_; ++j)
       if (j != farthest) time = std::max(time, time_below(j));
-    return time;
+    return {time, -region.conditions[farthest].value(m.p)};
   }
 
-  double stiffness(Face face) const { return stiffness_of(system_, face, c_, s_); }
-  double damping(Face face) const { return damping_of(system_, face, c_, s_); }
+  double stiffness(Face face) const { return stiffness_of(system_, face, tilt_.cos, tilt_.sin); }
+  double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
 
  private:
   /// What the part's turning adds to the motion of an edge as seen from the part.
@@ -173,26 +198,33 @@ class View {
   }
 
   const System& system_;
-  const State& state_;
-  double longest_, c_, s_;
+  State state_;
+  double longest_;
+  Tilt tilt_;
   Vec2 acceleration_;
   double turn_acceleration_;
   Flight::Bounds bounds_;
 };
 
-/// The site that is nearest to an event, and the time in which no other one can have any.
+/// Faces on which points lie where a look begins: they are judged by how they move off it.
+using PinnedFaces = std::array<Face, kSiteCount>;
+
+/// The site that is nearest to an event, the time in which no other one can have any, and the least gap of all that do
+/// not lie on a face.
 struct Nearest {
-  double time = INFINITY, others = INFINITY;
+  double time = INFINITY, others = INFINITY, gap = INFINITY;
   Site site = Site::a1;
   Region region;
   PointMotion motion;
   bool is_outcome = false;
 
   /// True when this one becomes the nearest.
-  bool take(double t) {
+  bool take(const Clearance& clearance, bool on_face) {
+    const double t = clearance.time;
     const bool nearer = t < time;
     others = std::min(others, nearer ? time : t);
     if (nearer) time = t;
+    if (!on_face) gap = std::min(gap, clearance.gap);
     return nearer;
   }
 };
@@ -207,21 +239,25 @@ class Search {
     FlightOutlook outlook;
     Flight::Motion motion = flight_.motion_at(t_);
     motion.state = outlook.end = state;
+    PinnedFaces pinned{};
+    for (std::size_t i = 0; i < kSiteCount; ++i) pinned[i] = pins_[i].face;
     for (int i = 0; i < kMostLeaps; ++i) {
-      const double left = longest - outlook.time, rate = flight_.rate(t_ + outlook.time);
-      const View view(system_, flight_, t_ + outlook.time, motion, std::min(left, kLongestLeap / rate));
+      const double now = t_ + outlook.time, left = longest - outlook.time, rate = flight_.rate(now);
+      const double reach = std::min(left, kLongestLeap / rate);
+      const View view(system_, motion, reach, flight_.bounds(now, now + reach));
       Nearest nearest;
-      if (!find_nearest(view, i == 0, nearest)) break;
-      const double time = std::min(nearest.time, view.longest());
-      // a point that starts on its face has to get off it first
-      const bool gets_off = i == 0 && time > 0.0 && pins_[static_cast<std::size_t>(nearest.site)].face != Face::none;
-      if (time < left && time * rate < kShortestLeap && !gets_off) {
-        if (!lands(view, nearest, outlook, left, i == 0)) break;
+      if (!find_nearest(view, pinned, nearest)) break;
+      const double time = std::min(nearest.time, reach);
+      if (time < left && (lands(view, nearest, pinned[static_cast<std::size_t>(nearest.site)], outlook) ||
+                          closes(view, nearest, left, i == 0, outlook)))
         return outlook;
-      }
+      // a point that starts on its face has to get off it first
+      const bool gets_off = time > 0.0 && pinned[static_cast<std::size_t>(nearest.site)] != Face::none;
+      if (time < left && time * rate < kShortestLeap && !gets_off) break;
       outlook.time = time == left ? longest : outlook.time + time;
       motion = flight_.motion_at(t_ + outlook.time);
       outlook.end = motion.state;
+      pinned = {};
       if (outlook.time >= longest) break;
     }
     return outlook;
@@ -229,7 +265,7 @@ class Search {
 
  private:
   /// False where this way of looking does not reach: a point that is inside the other body without contact.
-  bool find_nearest(const View& view, bool at_start, Nearest& nearest) const {
+  bool find_nearest(const View& view, const PinnedFaces& pinned, Nearest& nearest) const {
     for (int i = 0; i < kSiteCount; ++i) {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
@@ -237,7 +273,7 @@ class Search {
       if (phase != Phase::outside && phase != Phase::unloaded) return false;
       const PointMotion motion = view.point(site);
       if (phase == Phase::unloaded) {
-        if (nearest.take(0.0)) {
+        if (nearest.take({0.0, 0.0}, false)) {
           nearest.site = site;
           nearest.motion = motion;
         }
@@ -245,7 +281,8 @@ class Search {
       }
       for (int half = 0; half < region_count(site); ++half) {
         const Region region = site_region(system_, site, half);
-        if (!nearest.take(view.time_outside(motion, region, at_start ? pins_[i].face : Face::none))) continue;
+        const Face face = pinned[static_cast<std::size_t>(i)];
+        if (!nearest.take(view.clearance(motion, region, face), face != Face::none)) continue;
         nearest.site = site;
         nearest.motion = motion;
         nearest.region = region;
@@ -261,53 +298,80 @@ class Search {
     const double l = system_.slot_half_width;
     const RegionCondition asked[] = {
         {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
-    double time = 0.0;
+    Clearance clearance{0.0, 0.0};
     for (const Site site : {Site::b1, Site::b2}) {
       const PointMotion motion = view.point(site);
-      for (int j = 0; j < (between_walls ? 3 : 1) && time < view.longest(); ++j)
-        time = std::max(time, motion.along(asked[j]).time_below(view.longest(), false));
+      for (int j = 0; j < (between_walls ? 3 : 1) && clearance.time < view.longest(); ++j) {
+        const Curve condition = motion.along(asked[j]);
+        clearance.time = std::max(clearance.time, condition.time_below(view.longest(), false));
+        clearance.gap = std::max(clearance.gap, -condition.value);
+      }
     }
-    if (nearest.take(time)) nearest.is_outcome = true;
+    if (nearest.take(clearance, false)) nearest.is_outcome = true;
   }
 
-  /// Finds the event of the nearest site if it is certain to be the next one: no other site can have any before, and
-  /// its condition rises through zero once. `pinned`: N of an unloaded contact has just been zero.
-  bool lands(const View& view, const Nearest& nearest, FlightOutlook& outlook, double left, bool pinned) const {
+  /// Finds the landing of the nearest site if it is certain to be the next event: what the views ahead from here and
+  /// back from there see together leaves no time for another one.
+  bool lands(const View& view, const Nearest& nearest, Face pinned, FlightOutlook& outlook) const {
+    if (nearest.is_outcome || !(nearest.time > 0.0)) return false;
+    int crossed = 0, undecided = 0;
+    for (int j = 0; j < nearest.region.count; ++j) {
+      const RegionCondition& condition = nearest.region.conditions[j];
+      if (condition.face != pinned && condition.value(nearest.motion.p) > 0.0) continue;
+      ++undecided;
+      crossed = j;
+    }
+    const Face face = nearest.region.conditions[crossed].face;
+    if (undecided != 1 || !is_called_for(system_, face) || face == Face::floor) return false;
+    const Curve crossing = nearest.motion.along(nearest.region.conditions[crossed]);
+    const double estimate = crossing.estimated_rise();
+    if (!(estimate <= std::min(kFarthestLanding * nearest.time, view.longest()))) return false;
+    double s = estimate;
+    if (!find_crossing(nearest.site, face, crossing, view.longest(), outlook.time, s)) return false;
+    const double time = outlook.time + s;
+    const Flight::Motion motion = flight_.motion_at(t_ + time);
+    const View back = view.back_from(motion, s);
+    const PointMotion point = back.point(nearest.site);
+    const double clear = kClear * (system_.half_width + system_.base_distance + system_.slot_half_width);
+    for (int j = 0; j < nearest.region.count; ++j) {
+      const RegionCondition& condition = nearest.region.conditions[j];
+      if (j != crossed && !(condition.value(point.p) > clear)) return false;
+    }
+    PinnedFaces landed{};
+    landed[static_cast<std::size_t>(nearest.site)] = face;
+    Nearest before;
+    if (!find_nearest(back, landed, before) || !(nearest.time + before.time >= s && before.gap > clear)) return false;
+    outlook.time = time;
+    outlook.lands = true;
+    outlook.event = {EventKind::touch, nearest.site, face};
+    outlook.end = motion.state;
+    return true;
+  }
+
+  /// Finds the end of an unloaded contact if it is certain to be the next event: no other site can have any before, and
+  /// the depth falls through zero once. `pinned`: N has just been zero.
+  bool closes(const View& view, const Nearest& nearest, double left, bool pinned, FlightOutlook& outlook) const {
     if (nearest.is_outcome) return false;
     const ContactState& contact = contacts_[static_cast<std::size_t>(nearest.site)];
-    const bool unloaded = contact.phase == Phase::unloaded;
-    const double most = std::min({left, nearest.others, view.longest()});
-    Curve crossing{};
-    Face face = contact.face;
-    double span = 0.0;
-    if (unloaded) {
-      const ContactFrame frame = contact_frame(system_, face);
-      crossing = nearest.motion.along({frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face}).negative();
-      span = kLandingSpan * crossing.estimated_rise();
-      if (!(span <= most) || !stays_unloaded(view, crossing.negative(), face, span, pinned)) return false;
-      const Region limits = face_limits(system_, face, nearest.motion.p);
-      for (int j = 0; j < limits.count; ++j)
-        if (!nearest.motion.along(limits.conditions[j]).stays_above(span)) return false;
-    } else {
-      int undecided = 0;
-      for (int j = 0; j < nearest.region.count; ++j) {
-        const Curve curve = nearest.motion.along(nearest.region.conditions[j]);
-        if (curve.value > 0.0) continue;
-        ++undecided;
-        crossing = curve;
-        face = nearest.region.conditions[j].face;
-      }
-      if (undecided != 1 || !is_called_for(system_, face) || face == Face::floor) return false;
-      span = kLandingSpan * crossing.estimated_rise();
-      if (!(span <= most)) return false;
-      for (int j = 0; j < nearest.region.count; ++j)
-        if (nearest.region.conditions[j].face != face &&
-            !nearest.motion.along(nearest.region.conditions[j]).stays_above(span))
-          return false;
-    }
+    if (contact.phase != Phase::unloaded) return false;
+    const Face face = contact.face;
+    const ContactFrame frame = contact_frame(system_, face);
+    const Curve crossing =
+        nearest.motion.along({frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face}).negative();
+    const double estimate = crossing.estimated_rise(), span = kClosingSpan * estimate;
+    if (!(span <= std::min({left, nearest.others, view.longest()}))) return false;
+    if (!stays_unloaded(view, crossing.negative(), face, span, pinned)) return false;
+    const Region limits = face_limits(system_, face, nearest.motion.p);
+    for (int j = 0; j < limits.count; ++j)
+      if (!nearest.motion.along(limits.conditions[j]).stays_above(span)) return false;
     if (!(crossing.value < 0.0) || !crossing.rises(span) || !(crossing.lowest(span) > 0.0)) return false;
-    return find_crossing(nearest.site, face, crossing, span, outlook) &&
-           (outlook.event = {unloaded ? EventKind::close : EventKind::touch, nearest.site, face}, true);
+    double s = estimate;
+    if (!find_crossing(nearest.site, face, crossing, span, outlook.time, s)) return false;
+    outlook.time += s;
+    outlook.lands = true;
+    outlook.event = {EventKind::close, nearest.site, face};
+    flight_.at(t_ + outlook.time, outlook.end);
+    return true;
   }
 
   /// k d + h d' of an unloaded contact, which has been zero, falls from the start and stays below zero.
@@ -319,12 +383,13 @@ class Search {
     return (pinned || force < 0.0) && rate + 0.5 * bend * span < 0.0;
   }
 
-  /// The zero of a site's depth within `span` from the outlook's end, by Halley's method on the closed form.
-  bool find_crossing(Site site, Face face, const Curve& crossing, double span, FlightOutlook& outlook) const {
-    double s = span / kLandingSpan, acceleration = crossing.acceleration;
+  /// The zero of a site's depth within `span` from the time `from`, by Halley's method on the closed form. `s`: its
+  /// estimate, then itself.
+  bool find_crossing(Site site, Face face, const Curve& crossing, double span, double from, double& s) const {
+    double acceleration = crossing.acceleration;
     for (int i = 0; i < kMostSteps; ++i) {
       State state;
-      flight_.at(t_ + outlook.time + s, state);
+      flight_.at(t_ + (from + s), state);
       const ContactKinematics k = contact_kinematics(system_, state, site, face);
       const double newton = -k.depth / k.depth_rate, rate = std::abs(k.depth_rate);
       // the acceleration changes steadily
@@ -332,11 +397,8 @@ class Search {
       const double step = newton / (1.0 + 0.5 * newton * acceleration / rate);
       s += step;
       if (!(s >= 0.0 && s <= span)) return false;
-      if (std::abs(step) > kLastStep * span) continue;
-      outlook.time += s;
-      outlook.lands = true;
-      flight_.at(t_ + outlook.time, outlook.end);
-      return true;
+      // a turning point that is no zero stops it as well: there Newton's step is a long one
+      if (std::abs(step) <= kLastStep * span) return std::abs(newton) <= 2.0 * std::abs(step);
     }
     return false;
   }

@@ -190,5 +190,113 @@ TEST(Flight, a_site_that_leaves_its_face_is_no_hindrance) {
   }
 }
 
+// Thrown up from the base, on a spring that pulls it back: y - 0.6 = 0.3 cos t + v sin t is 0.3 again at 2 atan(v/0.3).
+TEST(Flight, one_look_finds_the_landing_of_a_whole_flight) {
+  const System system = make_system(test::scene_of(test::ball, {"gripper.damping.y=0.0"}));
+  for (const double speed : {1e-4, 0.1, 0.5, 3.0}) {
+    const State state{0.2, system.base_distance, 0.0, 0.0, speed, 0.0};
+    Pins pins{};
+    pins[0].face = Face::bottom;
+    Flight flight(0);
+    flight.begin(system, state, {}, {});
+    const FlightOutlook outlook = look_ahead(system, flight, 0.0, state, {}, pins, {}, 10.0);
+    ASSERT_TRUE(outlook.lands) << speed;
+    EXPECT_EQ(outlook.event.kind, EventKind::touch);
+    EXPECT_EQ(outlook.event.site, Site::a1);
+    EXPECT_EQ(outlook.event.face, Face::bottom);
+    EXPECT_NEAR(outlook.time, 2.0 * std::atan(speed / 0.3), 1e-15 / speed + 1e-15);
+  }
+}
+
+// Shaken so that it nears the base and turns back: wherever a landing is told of, the depth is zero.
+TEST(Flight, a_turning_point_is_no_landing) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  int landings = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    System system = make_system(test::scene_of(test::plain));
+    system.y.stiffness = 0.1;
+    DriveForms drives;
+    drives.count = 1;
+    drives.direction[0] = Direction::y;
+    drives.form[0] = {};
+    drives.form[0].amplitude = 20.0 * u(random);
+    drives.form[0].frequency = 14.0;
+    const double phase = 6.3 * u(random);
+    drives.form[0].sin_phase = std::sin(phase);
+    drives.form[0].cos_phase = std::cos(phase);
+    const State state{0.21, system.base_distance + 0.3 * u(random), 0.0, 0.0, -u(random), 0.0};
+    if (deepest(system, state) > 0.0) continue;
+    Flight flight(1);
+    flight.begin(system, state, drives, {});
+    const FlightOutlook outlook = look_ahead(system, flight, 0.0, state, {}, {}, {}, 3.0);
+    if (!outlook.lands) continue;
+    ++landings;
+    ASSERT_NEAR(deepest(system, outlook.end), 0.0, 1e-14) << i;
+  }
+  EXPECT_GT(landings, 1000);
+}
+
+// What touches at the same time has to be seen together, as the series see it; rounding may set one before the other.
+TEST(Flight, points_that_touch_at_once_are_left_to_the_series) {
+  const System system = make_system(test::scene_of(test::plain, {"contacts=[corners]", "gripper.anchor.phi=0.0"}));
+  const auto lands = [&](double height, double phi) {
+    const State state{3.0, system.base_distance + height, phi, 0.0, -1.0, 0.0};
+    Flight flight(0);
+    flight.begin(system, state, {}, {});
+    return look_ahead(system, flight, 0.0, state, {}, {}, {}, 3.0).lands;
+  };
+  int alone = 0;
+  for (int i = 1; i <= 300; ++i) {
+    const double height = 1e-3 * i;
+    ASSERT_FALSE(lands(height, 0.0)) << height;
+    alone += lands(height, 0.01) && lands(height, -0.01);
+  }
+  EXPECT_GT(alone, 200);
+}
+
+// An edge that meets the part's very corner could be on either of two faces.
+TEST(Flight, the_landing_on_a_corner_is_left_to_the_series) {
+  const System system = make_system(test::scene_of(test::ball));
+  const auto lands = [&](double inside) {
+    const State state{
+        system.slot_half_width - system.half_width + inside, system.base_distance + 0.1, 0.0, 0.0, -1.0, 0.0};
+    Flight flight(0);
+    flight.begin(system, state, {}, {});
+    return look_ahead(system, flight, 0.0, state, {}, {}, {}, 3.0).lands;
+  };
+  EXPECT_TRUE(lands(1e-3));
+  EXPECT_FALSE(lands(1e-9));
+  EXPECT_FALSE(lands(-1e-9));
+}
+
+// Parts that turn fast: the point that seems nearest is not always the one that touches first.
+TEST(Flight, no_other_point_touches_before_a_landing) {
+  int landings = 0;
+  for (unsigned seed = 1; seed <= 6000; ++seed) {
+    const System system = make_system(test::random_scene(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    State state = system.start;
+    state.y += 0.5 * std::abs(u(random));
+    state.vx = u(random);
+    state.vy = -std::abs(u(random));
+    state.omega = 20.0 * u(random);
+    if (deepest(system, state) > 0.0) continue;
+    Flight flight(0);
+    flight.begin(system, state, {}, {});
+    if (!flight.exact()) continue;
+    const FlightOutlook outlook = look_ahead(system, flight, 0.0, state, {}, {}, {}, 2.0);
+    if (!outlook.lands) continue;
+    ++landings;
+    for (int k = 0; k < 300; ++k) {
+      State inside;
+      flight.at(outlook.time * k / 300.0, inside);
+      ASSERT_LE(deepest(system, inside), 1e-13) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(landings, 1000);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
