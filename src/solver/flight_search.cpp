@@ -248,8 +248,10 @@ class Search {
       Nearest nearest;
       if (!find_nearest(view, pinned, nearest)) break;
       const double time = std::min(nearest.time, reach);
-      if (time < left && (lands(view, nearest, pinned[static_cast<std::size_t>(nearest.site)], outlook) ||
-                          closes(view, nearest, left, i == 0, outlook)))
+      // of sites alike, or all beyond reach, none is the nearest: the mirror image would begin with another one
+      const bool is_nearest = nearest.time < std::min(nearest.others, reach);
+      if (is_nearest && (lands(view, nearest, pinned[static_cast<std::size_t>(nearest.site)], outlook) ||
+                         closes(view, nearest, left, i == 0, outlook)))
         return outlook;
       // a point that starts on its face has to get off it first
       const bool gets_off = time > 0.0 && pinned[static_cast<std::size_t>(nearest.site)] != Face::none;
@@ -301,10 +303,10 @@ class Search {
     Clearance clearance{0.0, 0.0};
     for (const Site site : {Site::b1, Site::b2}) {
       const PointMotion motion = view.point(site);
-      for (int j = 0; j < (between_walls ? 3 : 1) && clearance.time < view.longest(); ++j) {
-        const Curve condition = motion.along(asked[j]);
-        clearance.time = std::max(clearance.time, condition.time_below(view.longest(), false));
-        clearance.gap = std::max(clearance.gap, -condition.value);
+      for (int j = 0; j < (between_walls ? 3 : 1); ++j) {
+        clearance.gap = std::max(clearance.gap, -asked[j].value(motion.p));
+        if (clearance.time < view.longest())
+          clearance.time = std::max(clearance.time, motion.along(asked[j]).time_below(view.longest(), false));
       }
     }
     if (nearest.take(clearance, false)) nearest.is_outcome = true;

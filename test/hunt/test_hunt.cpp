@@ -128,5 +128,14 @@ TEST(Judge, tells_rounding_from_a_broken_mirror) {
   }
 }
 
+// A touch so slow and short that its digits decide where the solver gives up; moved by its last digits the start has
+// none.
+TEST(Judge, compares_no_refusal_at_a_touch_that_rounding_makes) {
+  const Verdict verdict = judge(random_scene(443640, Range::wild), Range::wild);
+  EXPECT_TRUE(verdict.faults.empty());
+  EXPECT_TRUE(verdict.sensitive);
+  EXPECT_EQ(verdict.refusal, "no contact state is consistent");
+}
+
 }  // namespace
 }  // namespace vibratory_alignment::hunt
