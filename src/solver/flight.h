@@ -20,7 +20,7 @@ class Flight {
 
   /// State at time t since the start of the flight. Coordinates without exact closed form are left as they are in
   /// `state`.
-  void at(double t, State& state) const;
+  [[gnu::noinline]] void at(double t, State& state) const;
 
   /// State and accelerations x'', y'', phi'' at time t since the start of an exact flight.
   struct Motion {
