@@ -69,7 +69,7 @@ constexpr double kEvaluationCost = 0.12, kLayerEvaluationCost = 0.2, kImplicitCo
 constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
 
 /// Series steps in one contact before an implicit one is tried.
-constexpr int kTrialAfter = 32;
+constexpr int kTrialAfter = 24;
 
 /// Shortest step worth trying, in series steps, and that at the very start, where nothing is known yet.
 constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0;
