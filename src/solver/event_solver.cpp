@@ -69,10 +69,11 @@ constexpr double kEvaluationCost = 0.12, kLayerEvaluationCost = 0.2, kImplicitCo
 constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
 
 /// Series steps in one contact before an implicit one is tried.
-constexpr int kTrialAfter = 24;
+constexpr int kTrialAfter = 32;
 
-/// Shortest step worth trying, in series steps, and that at the very start, where nothing is known yet.
-constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0;
+/// Shortest step worth trying, in series steps. At the very start, where nothing is known yet, it is longer, and tried
+/// is first a step of the length kFirst: each longer one that fails costs as much as some series steps.
+constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0, kFirst = 96.0;
 
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
@@ -335,6 +336,7 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
   if (method_ == ContactMethod::automatic && now_.value() == 0.0) {
     // a contact at the start does not come out of an impact: its ring may be small enough to be passed over
     series_step_ = series_contact_step(drives);
+    implicit_.suggest(kFirst * series_step_);
     shortest = kShortestFirst * series_step_;
     stays_implicit_ = true;
   }
