@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
-#include "mechanics/tilt.h"
+#include "solver/flight_view.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -15,9 +15,6 @@ constexpr double kLongestLeap = 6.0;
 
 /// Leaps in one look: what comes closer and closer without touching is left to the series.
 constexpr int kMostLeaps = 16;
-
-/// Halvings with which the end of a leap is found; what is lost is time, never a touch.
-constexpr int kHalvings = 8;
 
 /// The end of an unloaded contact is looked for until so many times its estimate.
 constexpr double kClosingSpan = 1.5;
@@ -33,178 +30,6 @@ constexpr double kClear = 1e-6;
 /// estimated acceleration a part of its square.
 constexpr double kLastStep = 1e-9;
 constexpr int kMostSteps = 8;
-
-/// A condition ahead: value + rate s + 1/2 acceleration s^2, with an error of at most 1/6 jerk s^3.
-struct Curve {
-  double value, rate, acceleration, jerk;
-
-  double highest(double s) const { return value + s * (rate + s * (0.5 * acceleration + s * jerk / 6.0)); }
-  double lowest(double s) const { return value + s * (rate + s * (0.5 * acceleration - s * jerk / 6.0)); }
-  Curve negative() const { return {-value, -rate, -acceleration, jerk}; }
-
-  /// True when the curve surely stays above zero on [0, span].
-  bool stays_above(double span) const {
-    return value - span * (std::abs(rate) + span * (0.5 * std::abs(acceleration) + span * jerk / 6.0)) > 0.0;
-  }
-
-  /// True when the curve surely rises on all of [0, span].
-  bool rises(double span) const { return rate + span * (std::min(acceleration, 0.0) - 0.5 * span * jerk) > 0.0; }
-
-  /// First positive zero of value + rate s + 1/2 acceleration s^2 for value < 0; infinity if there is none.
-  double estimated_rise() const {
-    const double discriminant = rate * rate - 2.0 * acceleration * value;
-    if (discriminant < 0.0) return INFINITY;
-    const double root = std::sqrt(discriminant);
-    if (rate > 0.0) return -2.0 * value / (rate + root);
-    return acceleration > 0.0 ? (root - rate) / acceleration : INFINITY;
-  }
-
-  /// Time in [0, longest] up to which the curve surely stays at or below zero. `from_zero`: it starts at zero and is
-  /// judged by what follows.
-  double time_below(double longest, bool from_zero) const {
-    if (from_zero ? !(rate < 0.0) : value >= 0.0) return 0.0;
-    // on s > 0 its upper bound has at most one maximum, at the smaller root of its slope, then rises
-    double low = 0.0, high = longest;
-    const double discriminant = acceleration * acceleration - 2.0 * jerk * rate;
-    if (discriminant > 0.0 && jerk > 0.0) {
-      const double root = std::sqrt(discriminant);
-      const double maximum = (-acceleration - root) / jerk, minimum = (-acceleration + root) / jerk;
-      if (maximum > 0.0 && highest(maximum) > 0.0) {
-        high = std::min(high, maximum);
-      } else if (minimum > 0.0) {
-        low = std::min(minimum, longest);
-      }
-    }
-    if (highest(high) <= 0.0) return high;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (low + high);
-      (highest(middle) <= 0.0 ? low : high) = middle;
-    }
-    return low;
-  }
-};
-
-/// A site's point with its first two derivatives and a bound on the third.
-struct PointMotion {
-  Vec2 p, rate, acceleration;
-  double jerk = 0.0;
-
-  Curve along(const RegionCondition& condition) const {
-    return {condition.value(p), condition.c1 * rate.x + condition.c2 * rate.y,
-            condition.c1 * acceleration.x + condition.c2 * acceleration.y, jerk};
-  }
-};
-
-Vec2 turned(const Vec2& v) { return {-v.y, v.x}; }
-
-/// Time in which an event surely does not happen, and the length by which it does not now.
-struct Clearance {
-  double time = INFINITY, gap = INFINITY;
-};
-
-/// The flight as seen at one of its times, ahead or back.
-class View {
- public:
-  View(const System& system, const Flight::Motion& motion, double longest, const Flight::Bounds& bounds)
-      : system_(system),
-        state_(motion.state),
-        longest_(longest),
-        tilt_(tilt_of(state_.phi)),
-        acceleration_{motion.ax, motion.ay},
-        turn_acceleration_(motion.alpha),
-        bounds_(bounds) {}
-
-  /// From `motion`, to which this view reaches, back as far as `longest`: time runs the other way, and rates with it.
-  View back_from(Flight::Motion motion, double longest) const {
-    motion.state.vx = -motion.state.vx;
-    motion.state.vy = -motion.state.vy;
-    motion.state.omega = -motion.state.omega;
-    return {system_, motion, longest, bounds_};
-  }
-
-  double longest() const { return longest_; }
-
-  PointMotion point(Site site) const {
-    const auto [c, s] = tilt_;
-    PointMotion m;
-    m.jerk = bounds_.x.third + bounds_.y.third;
-    if (is_edge(site)) {
-      // body coordinates: r = A - C turned back by phi
-      const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
-      const Vec2& a = acceleration_;
-      m.p = {rx * c + ry * s, ry * c - rx * s};
-      m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
-      m.acceleration = {-(a.x * c + a.y * s), a.x * s - a.y * c};
-      if (system_.phi.moves) turn_edge(m);
-    } else {
-      const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-      const Vec2 r{beta * c + b * s, beta * s - b * c};
-      m.p = {state_.x + r.x, state_.y + r.y};
-      m.rate = {state_.vx, state_.vy};
-      m.acceleration = acceleration_;
-      if (system_.phi.moves) turn_corner(r, m);
-    }
-    return m;
-  }
-
-  /// How long the point surely stays out of the region, as long as any one of its conditions fails, and how far out it
-  /// is now.
-  Clearance clearance(const PointMotion& m, const Region& region, Face pinned) const {
-    // what is farthest from holding keeps the point out for longest: often no other condition has to be asked
-    int farthest = 0;
-    for (int j = 1; j < region.count; ++j)
-      if (region.conditions[j].value(m.p) < region.conditions[farthest].value(m.p)) farthest = j;
-    const auto time_below = [&](int j) {
-      const RegionCondition& condition = region.conditions[j];
-      const bool from_zero = pinned != Face::none && condition.face == pinned;
-      return m.along(condition).time_below(longest_, from_zero);
-    };
-    double time = time_below(farthest);
-    for (int j = 0; j < region.count && time < longest_; ++j)
-      if (j != farthest) time = std::max(time, time_below(j));
-    return {time, -region.conditions[farthest].value(m.p)};
-  }
-
-  double stiffness(Face face) const { return stiffness_of(system_, face, tilt_.cos, tilt_.sin); }
-  double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
-
- private:
-  /// What the part's turning adds to the motion of an edge as seen from the part.
-  void turn_edge(PointMotion& m) const {
-    const double omega = state_.omega, alpha = turn_acceleration_;
-    const double pull = bounds_.x.second + bounds_.y.second, speed = bounds_.x.rate + bounds_.y.rate;
-    const FreeMotion::Bounds& turn = bounds_.phi;
-    const Vec2 jp = turned(m.p), jv = turned(m.rate);
-    m.rate = {m.rate.x - omega * jp.x, m.rate.y - omega * jp.y};
-    m.acceleration = {m.acceleration.x - 2.0 * omega * jv.x - alpha * jp.x - omega * omega * m.p.x,
-                      m.acceleration.y - 2.0 * omega * jv.y - alpha * jp.y - omega * omega * m.p.y};
-    m.jerk += 3.0 * (pull * turn.rate + speed * (turn.second + turn.rate * turn.rate));
-    add_turning_jerk(std::abs(m.p.x) + std::abs(m.p.y) + speed * longest_, m);
-  }
-
-  /// ... to that of a corner at r from the mass centre.
-  void turn_corner(const Vec2& r, PointMotion& m) const {
-    const double omega = state_.omega, alpha = turn_acceleration_;
-    const Vec2 jr = turned(r);
-    m.rate = {m.rate.x + omega * jr.x, m.rate.y + omega * jr.y};
-    m.acceleration = {m.acceleration.x + alpha * jr.x - omega * omega * r.x,
-                      m.acceleration.y + alpha * jr.y - omega * omega * r.y};
-    add_turning_jerk(std::abs(r.x) + std::abs(r.y), m);
-  }
-
-  void add_turning_jerk(double reach, PointMotion& m) const {
-    const FreeMotion::Bounds& turn = bounds_.phi;
-    m.jerk += reach * (turn.third + 3.0 * turn.rate * turn.second + turn.rate * turn.rate * turn.rate);
-  }
-
-  const System& system_;
-  State state_;
-  double longest_;
-  Tilt tilt_;
-  Vec2 acceleration_;
-  double turn_acceleration_;
-  Flight::Bounds bounds_;
-};
 
 /// Faces on which points lie where a look begins: they are judged by how they move off it.
 using PinnedFaces = std::array<Face, kSiteCount>;
@@ -244,7 +69,7 @@ class Search {
     for (int i = 0; i < kMostLeaps; ++i) {
       const double now = t_ + outlook.time, left = longest - outlook.time, rate = flight_.rate(now);
       const double reach = std::min(left, kLongestLeap / rate);
-      const View view(system_, motion, reach, flight_.bounds(now, now + reach));
+      const FlightView view(system_, motion, reach, flight_.bounds(now, now + reach));
       Nearest nearest;
       if (!find_nearest(view, pinned, nearest)) break;
       const double time = std::min(nearest.time, reach);
@@ -267,7 +92,7 @@ class Search {
 
  private:
   /// False where this way of looking does not reach: a point that is inside the other body without contact.
-  bool find_nearest(const View& view, const PinnedFaces& pinned, Nearest& nearest) const {
+  bool find_nearest(const FlightView& view, const PinnedFaces& pinned, Nearest& nearest) const {
     for (int i = 0; i < kSiteCount; ++i) {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
@@ -296,7 +121,7 @@ class Search {
   }
 
   /// Both corners have to be below `depth` and, if asked, between the walls.
-  void outcome_ahead(const View& view, double depth, bool between_walls, Nearest& nearest) const {
+  void outcome_ahead(const FlightView& view, double depth, bool between_walls, Nearest& nearest) const {
     const double l = system_.slot_half_width;
     const RegionCondition asked[] = {
         {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
@@ -314,7 +139,7 @@ class Search {
 
   /// Finds the landing of the nearest site if it is certain to be the next event: what the views ahead from here and
   /// back from there see together leaves no time for another one.
-  bool lands(const View& view, const Nearest& nearest, Face pinned, FlightOutlook& outlook) const {
+  bool lands(const FlightView& view, const Nearest& nearest, Face pinned, FlightOutlook& outlook) const {
     if (nearest.is_outcome || !(nearest.time > 0.0)) return false;
     int crossed = 0, undecided = 0;
     for (int j = 0; j < nearest.region.count; ++j) {
@@ -325,14 +150,14 @@ class Search {
     }
     const Face face = nearest.region.conditions[crossed].face;
     if (undecided != 1 || !is_called_for(system_, face) || face == Face::floor) return false;
-    const Curve crossing = nearest.motion.along(nearest.region.conditions[crossed]);
+    const BoundedCurve crossing = nearest.motion.along(nearest.region.conditions[crossed]);
     const double estimate = crossing.estimated_rise();
     if (!(estimate <= std::min(kFarthestLanding * nearest.time, view.longest()))) return false;
     double s = estimate;
     if (!find_crossing(nearest.site, face, crossing, view.longest(), outlook.time, s)) return false;
     const double time = outlook.time + s;
     const Flight::Motion motion = flight_.motion_at(t_ + time);
-    const View back = view.back_from(motion, s);
+    const FlightView back = view.back_from(motion, s);
     const PointMotion point = back.point(nearest.site);
     const double clear = kClear * (system_.half_width + system_.base_distance + system_.slot_half_width);
     for (int j = 0; j < nearest.region.count; ++j) {
@@ -352,13 +177,13 @@ class Search {
 
   /// Finds the end of an unloaded contact if it is certain to be the next event: no other site can have any before, and
   /// the depth falls through zero once. `pinned`: N has just been zero.
-  bool closes(const View& view, const Nearest& nearest, double left, bool pinned, FlightOutlook& outlook) const {
+  bool closes(const FlightView& view, const Nearest& nearest, double left, bool pinned, FlightOutlook& outlook) const {
     if (nearest.is_outcome) return false;
     const ContactState& contact = contacts_[static_cast<std::size_t>(nearest.site)];
     if (contact.phase != Phase::unloaded) return false;
     const Face face = contact.face;
     const ContactFrame frame = contact_frame(system_, face);
-    const Curve crossing =
+    const BoundedCurve crossing =
         nearest.motion.along({frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face}).negative();
     const double estimate = crossing.estimated_rise(), span = kClosingSpan * estimate;
     if (!(span <= std::min({left, nearest.others, view.longest()}))) return false;
@@ -377,7 +202,7 @@ class Search {
   }
 
   /// k d + h d' of an unloaded contact, which has been zero, falls from the start and stays below zero.
-  bool stays_unloaded(const View& view, const Curve& depth, Face face, double span, bool pinned) const {
+  bool stays_unloaded(const FlightView& view, const BoundedCurve& depth, Face face, double span, bool pinned) const {
     if (system_.recovery || (is_part_face(face) && !system_.isotropic)) return false;
     const double k = view.stiffness(face), h = view.damping(face);
     const double force = k * depth.value + h * depth.rate, rate = k * depth.rate + h * depth.acceleration;
@@ -387,7 +212,7 @@ class Search {
 
   /// The zero of a site's depth within `span` from the time `from`, by Halley's method on the closed form. `s`: its
   /// estimate, then itself.
-  bool find_crossing(Site site, Face face, const Curve& crossing, double span, double from, double& s) const {
+  bool find_crossing(Site site, Face face, const BoundedCurve& crossing, double span, double from, double& s) const {
     double acceleration = crossing.acceleration;
     for (int i = 0; i < kMostSteps; ++i) {
       State state;

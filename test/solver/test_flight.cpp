@@ -237,6 +237,25 @@ TEST(Flight, a_turning_point_is_no_landing) {
   EXPECT_GT(landings, 1000);
 }
 
+// A part without springs, thrown at the base and pulled back by a constant force: y - b = 0.1 - t + t^2, which has no
+// third derivative, dips below zero and comes back.
+TEST(Flight, a_dip_under_a_constant_force_is_a_landing) {
+  System system = make_system(test::scene_of(test::plain));
+  for (Axis* axis : {&system.x, &system.y, &system.phi}) axis->stiffness = axis->damping = 0.0;
+  system.weight = 0.0;
+  DriveForms drives;
+  drives.count = 1;
+  drives.direction[0] = Direction::y;
+  drives.form[0] = {};
+  drives.form[0].constant = 2.0 * system.y.inertia;
+  const State state{0.21, system.base_distance + 0.1, 0.0, 0.0, -1.0, 0.0};
+  Flight flight(1);
+  flight.begin(system, state, drives, {});
+  const FlightOutlook outlook = look_ahead(system, flight, 0.0, state, {}, {}, {}, 3.0);
+  EXPECT_TRUE(outlook.lands);
+  EXPECT_NEAR(outlook.time, 0.5 - std::sqrt(0.15), 1e-14);
+}
+
 // What touches at the same time has to be seen together, as the series see it; rounding may set one before the other.
 TEST(Flight, points_that_touch_at_once_are_left_to_the_series) {
   const System system = make_system(test::scene_of(test::plain, {"contacts=[corners]", "gripper.anchor.phi=0.0"}));

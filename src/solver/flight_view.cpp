@@ -1,0 +1,95 @@
+#include "solver/flight_view.h"
+
+#include <algorithm>
+
+namespace vibratory_alignment {
+namespace {
+
+Vec2 turned(const Vec2& v) { return {-v.y, v.x}; }
+
+}  // namespace
+
+FlightView::FlightView(const System& system, const Flight::Motion& motion, double longest, const Flight::Bounds& bounds)
+    : system_(system),
+      state_(motion.state),
+      longest_(longest),
+      tilt_(tilt_of(state_.phi)),
+      acceleration_{motion.ax, motion.ay},
+      turn_acceleration_(motion.alpha),
+      bounds_(bounds) {}
+
+FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
+  motion.state.vx = -motion.state.vx;
+  motion.state.vy = -motion.state.vy;
+  motion.state.omega = -motion.state.omega;
+  return {system_, motion, longest, bounds_};
+}
+
+PointMotion FlightView::point(Site site) const {
+  const auto [c, s] = tilt_;
+  PointMotion m;
+  m.jerk = bounds_.x.third + bounds_.y.third;
+  if (is_edge(site)) {
+    // body coordinates: r = A - C turned back by phi
+    const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
+    const Vec2& a = acceleration_;
+    m.p = {rx * c + ry * s, ry * c - rx * s};
+    m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
+    m.acceleration = {-(a.x * c + a.y * s), a.x * s - a.y * c};
+    if (system_.phi.moves) turn_edge(m);
+  } else {
+    const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
+    const Vec2 r{beta * c + b * s, beta * s - b * c};
+    m.p = {state_.x + r.x, state_.y + r.y};
+    m.rate = {state_.vx, state_.vy};
+    m.acceleration = acceleration_;
+    if (system_.phi.moves) turn_corner(r, m);
+  }
+  return m;
+}
+
+Clearance FlightView::clearance(const PointMotion& m, const Region& region, Face pinned) const {
+  // what is farthest from holding keeps the point out for longest: often no other condition has to be asked
+  int farthest = 0;
+  for (int j = 1; j < region.count; ++j)
+    if (region.conditions[j].value(m.p) < region.conditions[farthest].value(m.p)) farthest = j;
+  const auto time_below = [&](int j) {
+    const RegionCondition& condition = region.conditions[j];
+    const bool from_zero = pinned != Face::none && condition.face == pinned;
+    return m.along(condition).time_below(longest_, from_zero);
+  };
+  double time = time_below(farthest);
+  for (int j = 0; j < region.count && time < longest_; ++j)
+    if (j != farthest) time = std::max(time, time_below(j));
+  return {time, -region.conditions[farthest].value(m.p)};
+}
+
+/// What the part's turning adds to the motion of an edge as seen from the part.
+void FlightView::turn_edge(PointMotion& m) const {
+  const double omega = state_.omega, alpha = turn_acceleration_;
+  const double pull = bounds_.x.second + bounds_.y.second, speed = bounds_.x.rate + bounds_.y.rate;
+  const FreeMotion::Bounds& turn = bounds_.phi;
+  const Vec2 jp = turned(m.p), jv = turned(m.rate);
+  m.rate = {m.rate.x - omega * jp.x, m.rate.y - omega * jp.y};
+  m.acceleration = {m.acceleration.x - 2.0 * omega * jv.x - alpha * jp.x - omega * omega * m.p.x,
+                    m.acceleration.y - 2.0 * omega * jv.y - alpha * jp.y - omega * omega * m.p.y};
+  m.jerk += 3.0 * (pull * turn.rate + speed * (turn.second + turn.rate * turn.rate));
+  add_turning_jerk(std::abs(m.p.x) + std::abs(m.p.y) + speed * longest_, m);
+}
+
+/// ... to that of a corner at r from the mass centre.
+void FlightView::turn_corner(const Vec2& r, PointMotion& m) const {
+  const double omega = state_.omega, alpha = turn_acceleration_;
+  const Vec2 jr = turned(r);
+  m.rate = {m.rate.x + omega * jr.x, m.rate.y + omega * jr.y};
+  m.acceleration = {m.acceleration.x + alpha * jr.x - omega * omega * r.x,
+                    m.acceleration.y + alpha * jr.y - omega * omega * r.y};
+  add_turning_jerk(std::abs(r.x) + std::abs(r.y), m);
+}
+
+void FlightView::add_turning_jerk(double reach, PointMotion& m) const {
+  const FreeMotion::Bounds& turn = bounds_.phi;
+  m.jerk += reach * (turn.third + 3.0 * turn.rate * turn.second + turn.rate * turn.rate * turn.rate);
+}
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,66 @@
+// A flight as it is seen from one of its times: where its points are, how they move, and for how long what happens next
+// surely does not (docs/hybrid_step.md "Leaps").
+#pragma once
+
+#include <cmath>
+
+#include "mechanics/contact_frame.h"
+#include "mechanics/site_rules.h"
+#include "mechanics/tilt.h"
+#include "solver/bounded_curve.h"
+#include "solver/flight.h"
+
+namespace vibratory_alignment {
+
+/// A site's point with its first two derivatives and a bound on the third.
+struct PointMotion {
+  Vec2 p, rate, acceleration;
+  double jerk = 0.0;
+
+  BoundedCurve along(const RegionCondition& condition) const {
+    return {condition.value(p), condition.c1 * rate.x + condition.c2 * rate.y,
+            condition.c1 * acceleration.x + condition.c2 * acceleration.y, jerk};
+  }
+};
+
+/// Time in which an event surely does not happen, and the length by which it does not now.
+struct Clearance {
+  double time = INFINITY, gap = INFINITY;
+};
+
+/// The flight as seen at one of its times, ahead or back.
+class FlightView {
+ public:
+  /// Sees as far as `longest` from `motion`; `bounds` hold until there.
+  FlightView(const System& system, const Flight::Motion& motion, double longest, const Flight::Bounds& bounds);
+
+  /// From `motion`, to which this view reaches, back as far as `longest`: time runs the other way, and rates with it.
+  FlightView back_from(Flight::Motion motion, double longest) const;
+
+  double longest() const { return longest_; }
+
+  /// In the axes of what the site may touch: an edge in those of the part, a corner in those of the world.
+  PointMotion point(Site site) const;
+
+  /// How long the point surely stays out of the region, as long as any one of its conditions fails, and how far out it
+  /// is now. `pinned`: the face on which it lies.
+  Clearance clearance(const PointMotion& motion, const Region& region, Face pinned) const;
+
+  double stiffness(Face face) const { return stiffness_of(system_, face, tilt_.cos, tilt_.sin); }
+  double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
+
+ private:
+  void turn_edge(PointMotion& motion) const;
+  void turn_corner(const Vec2& r, PointMotion& motion) const;
+  void add_turning_jerk(double reach, PointMotion& motion) const;
+
+  const System& system_;
+  State state_;
+  double longest_;
+  Tilt tilt_;
+  Vec2 acceleration_;
+  double turn_acceleration_;
+  Flight::Bounds bounds_;
+};
+
+}  // namespace vibratory_alignment
