@@ -71,8 +71,8 @@ constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
 /// Series steps in one contact before an implicit one is tried.
 constexpr int kTrialAfter = 32;
 
-/// Shortest step worth trying, in series steps. At the very start, where nothing is known yet, it is longer, and tried
-/// is first a step of the length kFirst: each longer one that fails costs as much as some series steps.
+/// Shortest step worth trying, in series steps; at the very start, where nothing is known yet, it is longer. There, if
+/// no ring can be passed over, a step of the length kFirst is tried.
 constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0, kFirst = 96.0;
 
 /// Halvings of a step within which sticking contacts have to move apart.
@@ -332,23 +332,18 @@ double EventSolver::direction_step(double step, double point_tolerance) {
 /// The series earn it as a share of their cost; what an implicit step brings beyond its cost adds to it or takes from
 /// it, and when it is used up the series take over again.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
+  const bool first = method_ == ContactMethod::automatic && now_.value() == 0.0;
   double shortest = 0.0;
-  if (method_ == ContactMethod::automatic && now_.value() == 0.0) {
-    // a contact at the start does not come out of an impact: its ring may be small enough to be passed over
-    series_step_ = series_contact_step(drives);
-    implicit_.suggest(kFirst * series_step_);
-    shortest = kShortestFirst * series_step_;
-    stays_implicit_ = true;
-  }
-  if (method_ == ContactMethod::automatic && !stays_implicit_ && series_steps_ >= kTrialAfter &&
+  if (method_ == ContactMethod::automatic && !first && !stays_implicit_ && series_steps_ >= kTrialAfter &&
       credit_ >= kTrialShare * kTrialAfter) {
     implicit_.suggest(2.0 * kImplicitCost * series_step_);
     shortest = kShortestTrial * series_step_;
     stays_implicit_ = true;
   }
   evaluations_before_ = counts_.rhs_evaluations;
-  if (method_ == ContactMethod::implicit || stays_implicit_) {
-    const double step = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+  if (first || method_ == ContactMethod::implicit || stays_implicit_) {
+    const double step = first ? first_implicit_step(longest, drives)
+                              : implicit_.take(state_, drives, longest, shortest, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
     if (step == 0.0) settle_credit(0.0, longest);
     if (step > 0.0) {
@@ -361,6 +356,19 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
   ++series_steps_;
   credit_ = std::min(credit_ + kTrialShare, kMostCredit);
   return series_contact_step(drives);
+}
+
+/// Automatic: the first step of a trial that starts in contact. That does not come out of an impact: its ring may be
+/// small enough to be passed over by a long step, or may have decayed after a moderate one.
+double EventSolver::first_implicit_step(double longest, const DriveForms& drives) {
+  stays_implicit_ = true;
+  series_step_ = series_contact_step(drives);
+  const double shortest = kShortestFirst * series_step_;
+  const double passing = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+  if (passing > 0.0) return passing;
+  evaluations_before_ = counts_.rhs_evaluations;  // what the question has cost says nothing about implicit steps
+  implicit_.suggest(kFirst * series_step_);
+  return implicit_.take(state_, drives, longest, shortest, segment_, counts_);
 }
 
 /// What a step of the length `gone` has been worth, once its end is known: an event cuts it short, and the way to there

@@ -34,6 +34,7 @@ class EventSolver final : public Solver {
   double series_contact_step(const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
+  double first_implicit_step(double longest, const DriveForms& drives);
   void settle_credit(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);

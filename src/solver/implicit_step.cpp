@@ -77,9 +77,10 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, double l
   equations_.begin(start, drives, segment.contacts, follows_, counts);
   longest = std::min(longest, longest_drive_step(drives));
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
-  shortest = std::max(shortest, kShortest * longest);
+  const bool passes_over = next_step_ == 0.0 && shortest > 0.0;
+  double last_error = std::numeric_limits<double>::infinity();
   bool tried = false;
-  for (; h > shortest; tried = true, ++counts.rejected) {
+  for (; h > std::max(shortest, kShortest * longest); tried = true, ++counts.rejected) {
     if (!equations_.solve(h, counts)) {
       h *= kRetry;
       continue;
@@ -87,6 +88,8 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, double l
     const double ratio = error(h) / equations_.allowed(h);
     const double factor = growth(h, ratio);
     if (ratio > 1.0) {
+      if (passes_over && ratio > last_error) return 0.0;
+      last_error = ratio;
       h *= std::min(0.9, factor);
       continue;
     }

@@ -15,7 +15,9 @@ class ImplicitStep {
 
   /// Takes a step of at most `longest` from `start` with the loaded contacts of segment.contacts and fills the
   /// segment's series with its polynomials (powers of the time since its start). Returns its length, 0 when it would
-  /// have to be shorter than `shortest` or when even the shortest does not converge. Counts forces and rejected steps.
+  /// have to be shorter than `shortest` or when even the shortest does not converge. The very first one, where it may
+  /// not be as short as it likes, is given up when it is worse than a longer one: it begins to see a ring of the base
+  /// that the longer one passes over. Counts forces and rejected steps.
   double take(const State& start, const DriveForms& drives, double longest, double shortest, Segment& segment,
               SolverCounts& counts);
 
