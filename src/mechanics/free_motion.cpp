@@ -26,6 +26,7 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   p0_ = p1_ = p2_ = p3_ = 0.0;
   early_ = late_ = {};
   slow_ = {};
+  slow_pull_ = 0.0;
   early_rate_ = late_rate_ = 0.0;
   decayed_ = std::numeric_limits<double>::infinity();
   if (!axis_.moves) return;
@@ -93,6 +94,23 @@ void FreeMotion::settle(Waves& waves) {
 double FreeMotion::slow_rate() const { return pull_ / (decay_ + root_); }
 
 double FreeMotion::moving_acceleration(double t, const Waves::Values& waves, double q, double v) const {
+  return t < decayed_ ? acceleration_by_forces(t, waves, q, v) : late_acceleration(t, waves);
+}
+
+/// What is left once the fastest mode has decayed. The forces of such an axis are large and cancel: their rounding,
+/// over the time in which it now moves, would be more than the bounds on the motion know of.
+double FreeMotion::late_acceleration(double t, const Waves::Values& waves) const {
+  double sum = 2.0 * p2_ + 6.0 * p3_ * t;
+  if (square_ > 0.0) sum += slow_pull_ * waves.left[fall_];
+  for (const Sine& sine : sines_) {
+    const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
+    sum -= sine.frequency * sine.frequency *
+           (sine.sin_amplitude * (2.0 * half_s * half_c) + sine.cos_amplitude * (1.0 - 2.0 * half_s * half_s));
+  }
+  return sum;
+}
+
+double FreeMotion::acceleration_by_forces(double t, const Waves::Values& waves, double q, double v) const {
   double force = constant_ + slope_ * t;
   for (const Sine& sine : sines_) {
     const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
@@ -159,16 +177,18 @@ void FreeMotion::find_bounds() {
   } else if (square_ > 0.0) {
     // the two decaying exponentials
     const double fast = decay_ + root_, slow = slow_rate();
-    slow_ = {std::abs(c * fast + s) / (2.0 * root_), slow, slow};
+    const double slow_amplitude = (c * fast + s) / (2.0 * root_);
+    slow_ = {std::abs(slow_amplitude), slow, slow};
+    slow_pull_ = slow_amplitude * slow * slow;
     late_rate_ = std::max(late_rate_, slow);
     fade({std::abs(c * slow + s) / (2.0 * root_), fast, fast});
   } else {
-    // (c + g t) exp(-a t): derivative n is at most a^n |c| + a^(n-1) |g| (n + 1/e)
+    // (c + g t) exp(-a t): derivative n is at most a^n |c| + a^(n-1) |g| n
     const double g = std::abs(s + decay_ * c);
     add(std::abs(c), decay_);
-    early_.rate += 1.37 * g;
-    early_.second += 2.37 * g * decay_;
-    early_.third += 3.37 * g * decay_ * decay_;
+    early_.rate += g;
+    early_.second += 2.0 * g * decay_;
+    early_.third += 3.0 * g * decay_ * decay_;
   }
 }
 

@@ -25,7 +25,7 @@ class FreeMotion {
   void settle(Waves& waves);
   bool exact() const { return exact_; }
 
-  /// Largest absolute values of q', q'', q''' between `begin` and `end`.
+  /// Bounds on the absolute values of q', q'', q''' between `begin` and `end`.
   struct Bounds {
     double rate = 0.0, second = 0.0, third = 0.0;
   };
@@ -33,6 +33,9 @@ class FreeMotion {
 
   /// Fastest rate of the motion from time t on, rad per unit of time: of all that has not decayed.
   double rate(double t) const { return axis_.moves ? moving_rate(t) : 0.0; }
+
+  /// Fastest rate of the equation of motion, which a power series has to follow also where no such motion is left.
+  double series_rate() const { return axis_.moves ? early_rate_ : 0.0; }
 
   /// Position and velocity at time t >= 0 after begin(), from the waves at that time.
   void at(double t, const Waves::Values& waves, double& q, double& v) const {
@@ -55,6 +58,8 @@ class FreeMotion {
 
   void move(double t, const Waves::Values& waves, double& q, double& v) const;
   double moving_acceleration(double t, const Waves::Values& waves, double q, double v) const;
+  double acceleration_by_forces(double t, const Waves::Values& waves, double q, double v) const;
+  double late_acceleration(double t, const Waves::Values& waves) const;
   Bounds moving_bounds(double begin, double end) const;
   double moving_rate(double t) const;
   /// A term amplitude exp(-decay t) of the free motion, or an oscillation within it; its n-th derivative is at most
@@ -77,6 +82,7 @@ class FreeMotion {
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
   Mode slow_;                                         ///< the slow exponential of an overdamped axis
+  double slow_pull_ = 0.0;                            ///< its second derivative at t = 0
   Bounds early_, late_;  ///< of all else but the polynomial: at all times, and once the fastest mode has decayed
   double early_rate_ = 0.0, late_rate_ = 0.0;
   double decayed_ = 0.0;  ///< time from which on the late ones hold

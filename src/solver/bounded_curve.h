@@ -9,8 +9,9 @@ namespace vibratory_alignment {
 
 /// value + rate s + 1/2 acceleration s^2 at time s >= 0 from now, with an error of at most 1/6 jerk s^3.
 struct BoundedCurve {
-  /// Halvings with which the end of a time is found; what is lost is time, never certainty.
-  static constexpr int kHalvings = 8;
+  /// Halvings with which the end of a time is found at least and at most: no more than to half of it. What is lost is
+  /// time, never certainty.
+  static constexpr int kHalvings = 8, kMostHalvings = 60;
 
   double value, rate, acceleration, jerk;
 
@@ -35,13 +36,14 @@ struct BoundedCurve {
     return acceleration > 0.0 ? (root - rate) / acceleration : INFINITY;
   }
 
-  /// Time in [0, longest] up to which the curve surely stays at or below zero. `from_zero`: it starts at zero and is
-  /// judged by what follows.
+  /// Time in [0, longest] up to which the curve surely stays at or below zero. `from_zero`: it starts at zero, its
+  /// value is rounding, and is judged by what follows.
   double time_below(double longest, bool from_zero) const {
     if (from_zero ? !(rate < 0.0) : value >= 0.0) return 0.0;
     // its upper bound rises, falls where rate + acceleration s + 1/2 jerk s^2 < 0, and rises again
     double low = 0.0, high = longest;
     const double discriminant = acceleration * acceleration - 2.0 * jerk * rate;
+    if (!std::isfinite(discriminant)) return 0.0;
     const double root = std::sqrt(std::max(discriminant, 0.0));
     if (discriminant > 0.0 && rate > 0.0 && acceleration < 0.0) {
       // the smaller zero in the form that loses no digits where the jerk is next to nothing
@@ -55,7 +57,7 @@ struct BoundedCurve {
       if (minimum > 0.0) low = std::min(minimum, longest);
     }
     if (highest(high) <= 0.0) return high;
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < kHalvings || (low < 0.5 * high && i < kMostHalvings); ++i) {
       const double middle = 0.5 * (low + high);
       (highest(middle) <= 0.0 ? low : high) = middle;
     }

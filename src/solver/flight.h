@@ -35,7 +35,11 @@ class Flight {
   /// Fastest rate in the motion from time t since the start of the flight on, rad per unit of time.
   double rate(double t) const { return std::max({x_.rate(t), y_.rate(t), phi_.rate(t)}); }
 
-  /// Largest absolute values of the derivatives of the coordinates between two times since the start of the flight.
+  /// Rate that a power series of the flight has to follow.
+  double series_rate() const { return std::max({x_.series_rate(), y_.series_rate(), phi_.series_rate()}); }
+
+  /// Bounds on the absolute values of the derivatives of the coordinates between two times since the start of the
+  /// flight.
   struct Bounds {
     FreeMotion::Bounds x, y, phi;
   };

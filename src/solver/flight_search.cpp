@@ -9,7 +9,8 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Leaps, in radians of the fastest motion: shorter ones do not bring it further, longer ones bound too loosely.
+/// Leaps: shorter ones, in radians of what a series would have to follow, do not bring it further; longer ones, in
+/// radians of the fastest motion, bound too loosely.
 constexpr double kShortestLeap = 0.3;
 constexpr double kLongestLeap = 6.0;
 
@@ -26,16 +27,16 @@ constexpr double kFarthestLanding = 2.5;
 /// part of the lengths of the bodies.
 constexpr double kClear = 1e-6;
 
-/// Halley's method has arrived when its step is this small beside the span: the next would be its cube, or with an
-/// estimated acceleration a part of its square.
+/// Halley's method has arrived when its step is this small beside the time it may go: the next would be its cube, or
+/// with an estimated acceleration a part of its square.
 constexpr double kLastStep = 1e-9;
 constexpr int kMostSteps = 8;
 
 /// Faces on which points lie where a look begins: they are judged by how they move off it.
 using PinnedFaces = std::array<Face, kSiteCount>;
 
-/// The site that is nearest to an event, the time in which no other one can have any, and the least gap of all that do
-/// not lie on a face.
+/// The site that may have an event first: the time in which it surely has none, that in which nothing else has, and the
+/// least gap of all that do not lie on a face.
 struct Nearest {
   double time = INFINITY, others = INFINITY, gap = INFINITY;
   Site site = Site::a1;
@@ -67,7 +68,9 @@ class Search {
     PinnedFaces pinned{};
     for (std::size_t i = 0; i < kSiteCount; ++i) pinned[i] = pins_[i].face;
     for (int i = 0; i < kMostLeaps; ++i) {
-      const double now = t_ + outlook.time, left = longest - outlook.time, rate = flight_.rate(now);
+      const double now = t_ + outlook.time, left = longest - outlook.time;
+      // seen from the part edges turn about it, also where its turning knows no rate
+      const double rate = std::max(flight_.rate(now), std::abs(motion.state.omega));
       const double reach = std::min(left, kLongestLeap / rate);
       const FlightView view(system_, motion, reach, flight_.bounds(now, now + reach));
       Nearest nearest;
@@ -76,11 +79,12 @@ class Search {
       // of sites alike, or all beyond reach, none is the nearest: the mirror image would begin with another one
       const bool is_nearest = nearest.time < std::min(nearest.others, reach);
       if (is_nearest && (lands(view, nearest, pinned[static_cast<std::size_t>(nearest.site)], outlook) ||
-                         closes(view, nearest, left, i == 0, outlook)))
+                         closes(view, nearest, left, outlook)))
         return outlook;
-      // a point that starts on its face has to get off it first
-      const bool gets_off = time > 0.0 && pinned[static_cast<std::size_t>(nearest.site)] != Face::none;
-      if (time < left && time * rate < kShortestLeap && !gets_off) break;
+      // points that start on a face have to get off it first
+      const bool gets_off =
+          time > 0.0 && std::any_of(pinned.begin(), pinned.end(), [](Face face) { return face != Face::none; });
+      if (time < left && time * flight_.series_rate() < kShortestLeap && !gets_off) break;
       outlook.time = time == left ? longest : outlook.time + time;
       motion = flight_.motion_at(t_ + outlook.time);
       outlook.end = motion.state;
@@ -176,8 +180,8 @@ class Search {
   }
 
   /// Finds the end of an unloaded contact if it is certain to be the next event: no other site can have any before, and
-  /// the depth falls through zero once. `pinned`: N has just been zero.
-  bool closes(const FlightView& view, const Nearest& nearest, double left, bool pinned, FlightOutlook& outlook) const {
+  /// the depth falls through zero once.
+  bool closes(const FlightView& view, const Nearest& nearest, double left, FlightOutlook& outlook) const {
     if (nearest.is_outcome) return false;
     const ContactState& contact = contacts_[static_cast<std::size_t>(nearest.site)];
     if (contact.phase != Phase::unloaded) return false;
@@ -187,7 +191,7 @@ class Search {
         nearest.motion.along({frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face}).negative();
     const double estimate = crossing.estimated_rise(), span = kClosingSpan * estimate;
     if (!(span <= std::min({left, nearest.others, view.longest()}))) return false;
-    if (!stays_unloaded(view, crossing.negative(), face, span, pinned)) return false;
+    if (!stays_unloaded(view, crossing.negative(), face, span)) return false;
     const Region limits = face_limits(system_, face, nearest.motion.p);
     for (int j = 0; j < limits.count; ++j)
       if (!nearest.motion.along(limits.conditions[j]).stays_above(span)) return false;
@@ -201,13 +205,13 @@ class Search {
     return true;
   }
 
-  /// k d + h d' of an unloaded contact, which has been zero, falls from the start and stays below zero.
-  bool stays_unloaded(const FlightView& view, const BoundedCurve& depth, Face face, double span, bool pinned) const {
+  /// k d + h d' of an unloaded contact, which is not above zero, falls.
+  bool stays_unloaded(const FlightView& view, const BoundedCurve& depth, Face face, double span) const {
     if (system_.recovery || (is_part_face(face) && !system_.isotropic)) return false;
     const double k = view.stiffness(face), h = view.damping(face);
-    const double force = k * depth.value + h * depth.rate, rate = k * depth.rate + h * depth.acceleration;
+    const double rate = k * depth.rate + h * depth.acceleration;
     const double bend = k * (std::abs(depth.acceleration) + depth.jerk * span) + h * depth.jerk;
-    return (pinned || force < 0.0) && rate + 0.5 * bend * span < 0.0;
+    return rate + 0.5 * bend * span < 0.0;
   }
 
   /// The zero of a site's depth within `span` from the time `from`, by Halley's method on the closed form. `s`: its
@@ -219,7 +223,7 @@ class Search {
       flight_.at(t_ + (from + s), state);
       const ContactKinematics k = contact_kinematics(system_, state, site, face);
       const double newton = -k.depth / k.depth_rate, rate = std::abs(k.depth_rate);
-      // the acceleration changes steadily
+      // the acceleration there, by the trapezoid's rule from the two rates
       if (i == 0) acceleration = 2.0 * (rate - crossing.rate) / s - acceleration;
       const double step = newton / (1.0 + 0.5 * newton * acceleration / rate);
       s += step;

@@ -25,10 +25,15 @@ double slip_scale(const ContactKinematics& k, const Motions& motions) {
   return largest;
 }
 
-/// Rates gained at the acceleration of the segment's start.
+/// Rates gained: of a flight all of them, else what the acceleration of the segment's start makes.
 State gain_of(const Segment& segment) {
   State gain;
-  if (segment.flight != nullptr) return gain;
+  if (segment.flight != nullptr) {
+    gain.vx = segment.end.vx - segment.begin.vx;
+    gain.vy = segment.end.vy - segment.begin.vy;
+    gain.omega = segment.end.omega - segment.begin.omega;
+    return gain;
+  }
   gain.vx = segment.duration * segment.vx[1];
   gain.vy = segment.duration * segment.vy[1];
   gain.omega = segment.duration * segment.omega[1];

@@ -12,6 +12,7 @@
 #include "../support/random_scenes.h"
 #include "../support/scenes.h"
 #include "mechanics/site_rules.h"
+#include "solver/event_solver.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -254,6 +255,71 @@ TEST(Flight, a_dip_under_a_constant_force_is_a_landing) {
   const FlightOutlook outlook = look_ahead(system, flight, 0.0, state, {}, {}, {}, 3.0);
   EXPECT_TRUE(outlook.lands);
   EXPECT_NEAR(outlook.time, 0.5 - std::sqrt(0.15), 1e-14);
+}
+
+/// A part of next to no inertia about its mass centre, whose damper stops it in 1e-14: from then on it turns slowly.
+System damped_at_once(double lift) {
+  System system;
+  system.half_width = system.base_distance = 1.0;
+  system.slot_half_width = 0.05;
+  system.x.moves = false;
+  system.x.inverse_inertia = 0.0;
+  system.y = {true, 1.0, 1.0, 1.0, 1.0, lift};
+  system.phi = {true, 1e-8, 1e8, 1e4, 1e6, -0.8};
+  system.contacts = {false, true, false};
+  system.aligned_depth = 0.5;
+  return system;
+}
+
+// The forces of its fast motion, long decayed, cancel: what rounding leaves of them must not look like an acceleration.
+TEST(Flight, rounding_of_large_forces_hides_no_touch) {
+  int landings = 0;
+  for (int i = 0; i < 115; ++i) {
+    const System system = damped_at_once(1.3 + 1e-3 * i);
+    const double slow = 1e-2;
+    const State start{0.2, system.y.anchor, 0.1 + 1e-4 * i, 0.0, 0.0, 0.0};
+    Flight flight(0);
+    flight.begin(system, start, {}, {});
+    const double t = 2e-12 + 1e-4 * i / slow;
+    State state = start;
+    flight.at(t, state);
+    EXPECT_NEAR(flight.motion_at(t).alpha, (start.phi - system.phi.anchor) * slow * slow * std::exp(-slow * t), 1e-14);
+    const FlightOutlook outlook = look_ahead(system, flight, t, state, {}, {}, {}, 3.0 / slow);
+    landings += outlook.lands;
+    for (int k = 0; k <= 3000; ++k) {
+      State inside = state;
+      flight.at(t + outlook.time * k / 3000.0, inside);
+      ASSERT_LE(deepest(system, inside), 1e-13) << i;
+    }
+  }
+  EXPECT_GT(landings, 50);
+}
+
+// Nor does the time that such a motion takes to decay limit the steps to what ends its flight: an outcome, or a touch
+// of both corners, which one look ahead does not tell.
+TEST(Flight, a_motion_that_has_decayed_does_not_shorten_the_steps) {
+  for (const double inertia : {1e-6, 1e-8, 1e-9})
+    for (const bool lands : {false, true}) {
+      System system = damped_at_once(0.5);
+      system.phi = {true, inertia, 1.0 / inertia, 11.0, 0.31, 1e-3};
+      system.y.damping = 0.3;
+      system.stiffness_x = system.stiffness_y = 1e3;
+      system.damping_x = system.damping_y = 10.0;
+      system.aligned_depth = 0.05;
+      system.start = {0.0, 1.4, 1.1e-3, 0.0, 0.0, 0.0};
+      if (lands) {
+        system.phi.anchor = 1e-7;
+        system.start.phi = 2e-7;
+      } else {
+        system.slot_half_width = 1.1;
+        system.contacts = {true, true, true};
+      }
+      EventSolver solver(system, {}, 1e-6, 200);
+      while (solver.advance(100.0).event_count == 0) {
+      }
+      EXPECT_EQ(solver.segment().events[0].kind, lands ? EventKind::touch : EventKind::aligned);
+      EXPECT_LT(solver.counts().steps, 40) << "inertia " << inertia;
+    }
 }
 
 // What touches at the same time has to be seen together, as the series see it; rounding may set one before the other.

@@ -43,6 +43,7 @@ class LockedMotion : public FreeMotion {
   constexpr bool exact() const { return true; }
   typename FreeMotion::Bounds bounds(double, double) const { return {}; }
   constexpr double rate(double) const { return 0.0; }
+  constexpr double series_rate() const { return 0.0; }
   template <typename Waves>
   void at(double, const Waves&, double& q, double& v) const {
     q = q_;
