@@ -9,7 +9,7 @@ struct Tilt {
   double cos, sin;
 };
 
-/// Largest tilt, rad, at which Taylor's series to the 15th power are good to the last digit or two. Parts tilt by less;
+/// Largest tilt, rad, at which Taylor's series to the 14th power are good to the last digit or two. Parts tilt by less;
 /// the library's functions take several times as long.
 constexpr double kSmallTilt = 0.5;
 
@@ -21,10 +21,8 @@ inline Tilt tilt_of(double phi) {
       z * z *
       (1.0 / 24 - z * (1.0 / 720 - z * (1.0 / 40320 - z * (1.0 / 3628800 - z * (1.0 / 479001600 - z / 87178291200)))));
   const double odd =
-      z *
-      (1.0 / 6 -
-       z * (1.0 / 120 -
-            z * (1.0 / 5040 - z * (1.0 / 362880 - z * (1.0 / 39916800 - z * (1.0 / 6227020800 - z / 1307674368000))))));
+      z * (1.0 / 6 -
+           z * (1.0 / 120 - z * (1.0 / 5040 - z * (1.0 / 362880 - z * (1.0 / 39916800 - z * (1.0 / 6227020800))))));
   return {1.0 - (0.5 * z - even), phi - phi * odd};
 }
 

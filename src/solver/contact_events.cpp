@@ -70,6 +70,7 @@ class Search {
       found_.time = time;
       found_.count = 0;
     }
+    found_.time = std::min(found_.time, time);  // of coinciding ones: the mirror image offers them in another order
     if (found_.count == kMaxEvents) return;
     found_.events[found_.count++] = {kind, site, face};
   }

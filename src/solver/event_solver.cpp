@@ -28,7 +28,8 @@ constexpr double kNearOverflow = 1e250;
 /// Order of the series of motions so fast that their high powers overflow.
 constexpr int kLowOrder = 8;
 
-/// Shortest flight, in radians of its fastest motion, that is worth a segment of its own without an event at its end.
+/// Shortest flight that is worth a segment of its own without an event at its end, in radians of what a series would
+/// have to follow.
 constexpr double kShortestFlight = 1.0;
 
 /// Largest correction of the time of an event, as a share of the step in which it was found.
@@ -243,6 +244,17 @@ bool EventSolver::must_part() const {
   return false;
 }
 
+/// The least of the corrected times of the crossings among coinciding events: the mirror image names them in another
+/// order.
+double EventSolver::first_crossing(const FoundEvents& found) const {
+  double first = kInfinity;
+  for (int i = 0; i < found.count; ++i) {
+    const Event& event = found.events[static_cast<std::size_t>(i)];
+    if (is_crossing(event.kind)) first = std::min(first, crossing_time(found.time, event));
+  }
+  return first < kInfinity ? first : found.time;
+}
+
 void EventSolver::go_to_end() {
   const Instant end = segment_.start + segment_.duration;
   // events may coincide, but not for ever
@@ -276,10 +288,10 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
   if (!flight_.exact()) return false;
   for (const Recovery& recovery : mode_.recoveries)
     if (recovery.deformation > 0.0) return false;
-  const double rate = flight_.rate(segment_.flight_time);
+  const double rate = flight_.rate(segment_.flight_time), series_rate = flight_.series_rate();
   const FlightOutlook outlook = look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins,
                                            outcomes_, std::min(longest, kLongestFlightSegment / rate));
-  if (!outlook.lands && outlook.time < longest && outlook.time * rate < kShortestFlight) return false;
+  if (!outlook.lands && outlook.time < longest && outlook.time * series_rate < kShortestFlight) return false;
   segment_.flight = &flight_;
   segment_.order = 0;
   segment_.loaded_count = 0;
@@ -341,7 +353,8 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     stays_implicit_ = true;
   }
   evaluations_before_ = counts_.rhs_evaluations;
-  if (first || method_ == ContactMethod::implicit || stays_implicit_) {
+  // to a kink or limit that is here already, when rounding left nothing on the way, the series go
+  if (longest > 0.0 && (first || method_ == ContactMethod::implicit || stays_implicit_)) {
     const double step = first ? first_implicit_step(longest, drives)
                               : implicit_.take(state_, drives, longest, shortest, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
@@ -362,13 +375,21 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
 /// small enough to be passed over by a long step, or may have decayed after a moderate one.
 double EventSolver::first_implicit_step(double longest, const DriveForms& drives) {
   stays_implicit_ = true;
-  series_step_ = series_contact_step(drives);
+  series_step_ = std::min(series_contact_step(drives), longest);  // at rest it has no end
   const double shortest = kShortestFirst * series_step_;
   const double passing = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
   if (passing > 0.0) return passing;
   evaluations_before_ = counts_.rhs_evaluations;  // what the question has cost says nothing about implicit steps
   implicit_.suggest(kFirst * series_step_);
   return implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+}
+
+/// Takes the implicit step again with the length `step`. False when that does not converge: the polynomials of the
+/// longer one stay, whose state there only they know.
+bool EventSolver::shorten_implicit_step(double step) {
+  const bool taken = implicit_.retake(step, segment_, counts_);
+  implicit_length_ = taken ? step : kInfinity;
+  return taken;
 }
 
 /// What a step of the length `gone` has been worth, once its end is known: an event cuts it short, and the way to there
@@ -444,10 +465,7 @@ const Segment& EventSolver::advance(double limit) {
     // the series of the points turn with the part; those of the other edge and the corners follow from these
     segment_.coarse = implicit_now_;
     step = std::min({step, end, direction_step(step, point_tolerance)});
-    if (implicit_now_ && step < implicit_length_ && implicit_.retake(step, segment_, counts_)) {
-      implicit_length_ = step;
-      series_.adopt(segment_);
-    }
+    if (implicit_now_ && step < implicit_length_ && shorten_implicit_step(step)) series_.adopt(segment_);
     if (!contact && system_.contacts.edges)
       for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
         step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
@@ -471,11 +489,9 @@ const Segment& EventSolver::advance(double limit) {
       found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
     }
     if (found.count > 0) {
-      if (corrects && found.time > 0.0 && is_crossing(found.events[0].kind))
-        found.time = crossing_time(found.time, found.events[0]);
+      if (corrects && found.time > 0.0) found.time = first_crossing(found);
       segment_.duration = found.time;
-      if (implicit_now_ && found.time > 0.0 && implicit_.retake(found.time, segment_, counts_))
-        implicit_length_ = found.time;
+      if (implicit_now_ && found.time > 0.0) shorten_implicit_step(found.time);
     }
   }
   if (contact) settle_credit(segment_.duration, end);

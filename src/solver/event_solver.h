@@ -28,6 +28,7 @@ class EventSolver final : public Solver {
   bool leap(double longest, FoundEvents& found);
   State flight_state(double duration) const;
   double crossing_time(double found, const Event& event) const;
+  double first_crossing(const FoundEvents& found) const;
   double tanh_layer_step() const;
   bool must_part() const;
   double expand_contact(const DriveForms& drives);
@@ -35,6 +36,7 @@ class EventSolver final : public Solver {
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
   double first_implicit_step(double longest, const DriveForms& drives);
+  bool shorten_implicit_step(double step);
   void settle_credit(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
@@ -52,7 +54,7 @@ class EventSolver final : public Solver {
   Instant now_;                   ///< start of the current segment
   State state_;                   ///< at now_
   ContactMode mode_, next_mode_;  ///< during the segment, and from its end on
-  bool mode_changes_ = false;     ///< next_mode_ is another one than mode_, which only loses its pins
+  bool mode_changes_ = false;     ///< next_mode_ holds; else mode_ does, without pins once time has passed
   std::vector<Drive> drives_, next_drives_;
   bool drives_change_ = false;  ///< next_drives_ are others than drives_
   DriveForms forms_;            ///< of the drives, from now_ on; once the segment's end is prepared, from there on
@@ -65,7 +67,7 @@ class EventSolver final : public Solver {
   FrictionChoice friction_;
   ImplicitStep implicit_;
   bool implicit_now_ = false;  ///< the current segment is an implicit step
-  double implicit_length_ = 0.0;
+  double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
   bool stays_implicit_ = false;  ///< automatic: the next step in contact is an implicit one
   double credit_ = 0.0;          ///< automatic: series steps' worth that implicit steps may lose beside the series
   int series_steps_ = 0;         ///< automatic: series steps in this contact since the last implicit one

@@ -48,7 +48,7 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment)
   LeftFactors left[kMaxOrder + 1];
   RightFactors right[kMaxOrder + 1];
   double push_moment[kMaxOrder + 1], drag_moment_0 = 0.0;
-  double tanh_0 = 0.0, tanh_rate = 0.0, tanh_force = 0.0;  // tanh, its rate over V, T over its change; all at power 0
+  double tanh_0 = 0.0, tanh_rate = 0.0, tanh_force = 0.0;  // tanh, d tanh/dV and dT/d tanh, all at power 0
   const double x_0 = segment.x[0], y_0 = segment.y[0], c_0 = segment.cos_phi[0], s_0 = segment.sin_phi[0];
   // forces per unit of N and of T along x and y, power 0
   const double push_x = kEdge ? push_1 * c_0 - push_2 * s_0 : push_1,

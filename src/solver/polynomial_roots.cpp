@@ -17,7 +17,8 @@ struct Range {
   double low, high;
 };
 
-/// Two coefficients at a time, from an even power on, in which they are written and read alike; an odd last one alone.
+/// Two coefficients at a time from an even power on, as scale_to_unit() leaves them: read as they were written they
+/// need not wait in memory for one another. An odd last one alone.
 template <typename TwoTerms, typename OneTerm>
 void for_powers(int from, int order, const TwoTerms& two, const OneTerm& one) {
   int k = from;
@@ -114,9 +115,9 @@ void shift_by_one(Series& g) {
 /// g((1 + t)/2). Loops of a length that is known beforehand take half the time.
 void right_half(const Series& g, int order, Series& half) {
   scale_to_unit(g, order, 0.5, half);
-  const int length = (order + 3) / 4 * 4;
-  std::fill(half.begin() + order + 1, half.begin() + length + 1, 0.0);
-  switch (length) {
+  const int padded_order = (order + 3) / 4 * 4;
+  std::fill(half.begin() + order + 1, half.begin() + padded_order + 1, 0.0);
+  switch (padded_order) {
     case 4: return shift_by_one<4>(half);
     case 8: return shift_by_one<8>(half);
     case 12: return shift_by_one<12>(half);
@@ -186,7 +187,12 @@ Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kM
       last = i;
     }
   }
-  if (undecided == 0) return {0.0, last};
+  if (undecided == 0) {
+    // all hold from here on, the last of them by a last digit that it had not just before
+    for (int i = 1; i < conditions.count; ++i)
+      if (conditions.g[i][0] < conditions.g[last][0]) last = i;
+    return {0.0, last};
+  }
   if (undecided == 1) {
     const Series& g = conditions.g[last];
     if (g[0] > 0.0 && g[1] >= 0.0) return {0.0, last};

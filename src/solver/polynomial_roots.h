@@ -11,7 +11,7 @@ constexpr double kNoRoot = -1.0;
 
 /// First t in [0, h] at which g (powers up to `order`) falls below zero, or kNoRoot.
 /// `zeros_at_start`: multiplicity of a root at t = 0 that is known to be there and is left out of the search.
-/// Throws SolverFailure when g is not finite.
+/// Throws SolverFailure when g has a coefficient that is not a number, or not finite where that could hide a root.
 /// A g that starts at or below zero for want of the last digit, and rises, is taken as starting at zero.
 double first_fall(const Series& g, int order, double h, int zeros_at_start);
 

@@ -10,6 +10,7 @@
 #include "../support/restitution.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "solver/event_solver.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -131,6 +132,54 @@ TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
   const State a = run_with(bouncing, "event", 1e-8).final_state, b = run_with(bouncing, "auto", 1e-8).final_state;
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.omega, b.omega);
+}
+
+// Rounding may leave nothing, or a last digit, of the way to a kink.
+TEST(Implicit, goes_over_every_kink_of_the_excitation) {
+  for (const char* waveform : {"square", "triangle"})
+    for (const char* friction : {"null", "{coefficient: 0.3, regularization: 0.2}"})
+      for (const double stiffness : {3e3, 3e4, 3e5})
+        for (const double frequency : {3.0, 8.4, 11.1, 16.5, 21.9, 30.0}) {
+          Scene scene = test::scene_of(
+              test::plain, {"gripper.pressing_force=2", "trial.time_limit=60", std::string("friction=") + friction});
+          scene.initial.y.reset();
+          scene.excitations[0].waveform = std::string(waveform) == "square" ? Waveform::square : Waveform::triangle;
+          scene.excitations[0].amplitude = 0.05;
+          scene.excitations[0].frequency = frequency;
+          scene.base.stiffness_x = scene.base.stiffness_y = stiffness;
+          scene.base.damping_x = scene.base.damping_y = 0.3 * std::sqrt(stiffness);
+          const TrialResult result = run_with(scene, "implicit", 1e-8);
+          EXPECT_NE(result.outcome, Outcome::failed) << waveform << ", friction " << friction << ", " << stiffness
+                                                     << ", " << frequency << ": " << result.failure;
+        }
+}
+
+// A part exactly at rest, whose first series has no end, is shaken from some time on.
+TEST(Implicit, automatic_choice_knows_steps_after_a_rest) {
+  Scene scene = test::scene_of(test::plain, {"gripper.anchor={x: 0.25, phi: 0.0}", "initial.x=0.25",
+                                             "part.base_distance=1.0", "friction=null", "trial.time_limit=50"});
+  // spring and base hold the part with a force of 1/2 each, without rounding
+  scene.base.stiffness_x = scene.base.stiffness_y = std::ldexp(1.0, 17);
+  scene.base.damping_x = scene.base.damping_y = 100.0;
+  scene.initial.y = 1.0 - std::ldexp(1.0, -18);
+  scene.initial.phi = 0.0;
+  scene.gripper.phi.moves = false;
+  scene.gripper.pressing_force.reset();
+  scene.gripper.anchor_y = *scene.initial.y - 0.5;
+  scene.excitations[0].frequency = 1.0;
+  std::vector<Excitation> still = scene.excitations;
+  still[0].amplitude = 0.0;
+  scene.excitations[0].amplitude = 0.2;
+  const auto steps = [&](ContactMethod method) {
+    EventSolver solver(make_system(scene), still, 1e-8, 1'000'000, method);
+    EXPECT_EQ(solver.advance(50.0).vy[1], 0.0);
+    solver.cut(1.0);
+    solver.set_excitations(scene.excitations);
+    while (solver.advance(50.0).end_time() < 50.0) {
+    }
+    return solver.counts().steps;
+  };
+  EXPECT_LT(steps(ContactMethod::automatic), 2 * steps(ContactMethod::implicit));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Roots against polynomials whose roots are known, and against 113-bit samples of random ones. The claim to test is that
-// nothing is sampled: double, clustered and grazing roots are decided by the polynomial down to its last digit.
+// Roots against polynomials whose roots are known, and against 113-bit samples of random ones. The claim to test is
+// that nothing is sampled: double, clustered and grazing roots are decided by the polynomial down to its last digit.
 #include "solver/polynomial_roots.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../support/polynomials.h"
+#include "solver/solver.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -42,6 +43,17 @@ TEST(FirstFall, sees_nothing_beyond_the_interval_or_rising) {
   Series constant{};
   constant[0] = 1e-300;
   EXPECT_EQ(first_fall(constant, 10, 1.0, 0), kNoRoot);
+}
+
+// Wherever it is among the coefficients, also of a polynomial that would stay far above zero without it.
+TEST(FirstFall, refuses_what_is_not_a_number) {
+  for (const int order : {1, 2, 3, 6, 17, kMaxOrder})
+    for (int k = 0; k <= order; ++k) {
+      Series g{};
+      g[0] = 1.0;
+      g[k] = std::nan("");
+      EXPECT_THROW(first_fall(g, order, 1.0, 0), SolverFailure) << "coefficient " << k << " of " << order;
+    }
 }
 
 // The first fall is the least root; the allowed error is the polynomial's last digit over its slope there.
@@ -86,8 +98,10 @@ TEST(FirstFall, agrees_with_dense_samples_of_random_polynomials) {
     }
     if (found == kNoRoot) continue;
     ++with_root;
-    EXPECT_LE(std::abs(static_cast<double>(exact_value(g, order, found))), 16.0 * noise(g, order, found)) << "case " << i;
-    EXPECT_LT(static_cast<double>(exact_value(g, order, found * (1.0 + 1e-6) + 1e-9)), noise(g, order, found)) << "case " << i;
+    EXPECT_LE(std::abs(static_cast<double>(exact_value(g, order, found))), 16.0 * noise(g, order, found))
+        << "case " << i;
+    EXPECT_LT(static_cast<double>(exact_value(g, order, found * (1.0 + 1e-6) + 1e-9)), noise(g, order, found))
+        << "case " << i;
   }
   EXPECT_GT(with_root, 500);
 }
@@ -185,7 +199,8 @@ std::vector<std::pair<double, double>> positive_parts(const std::vector<double>&
   return parts;
 }
 
-// Conditions with known roots: the first instant at which all are positive, and which of them came last, from intervals.
+// Conditions with known roots: the first instant at which all are positive, and which of them came last, from
+// intervals.
 TEST(FirstEntry, agrees_with_known_intervals) {
   std::mt19937 random(53);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -233,6 +248,33 @@ TEST(FirstEntry, agrees_with_known_intervals) {
   EXPECT_GT(entries, 300);
 }
 
+// Crossings at the very points at which intervals are halved, where rounding may set the two halves at odds.
+TEST(FirstEntry, names_the_condition_that_became_true_last) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  std::normal_distribution<double> normal;
+  int entries = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    Conditions conditions;
+    conditions.count = 2 + i % 4;
+    const int order = 2 + i % 23;
+    for (int c = 0; c < conditions.count; ++c) {
+      Series& g = conditions.g[c];
+      g = {};
+      for (int k = 1; k <= order; ++k) g[k] = normal(random) * std::pow(2.0, -k);
+      g[0] = 0.7 * normal(random);
+    }
+    Series& crossing = conditions.g[i % conditions.count];
+    crossing[0] = 0.0;
+    crossing[0] = -value_at(crossing, order, (1 + i % 15) / 16.0);
+    const Entry entry = first_entry(conditions, order, 1.0);
+    if (!(entry.time > 0.0)) continue;
+    ++entries;
+    ASSERT_NEAR(value_at(conditions.g[entry.last], order, entry.time), 0.0, 1e-9) << i;
+  }
+  EXPECT_GT(entries, 20'000);
+}
+
 // An edge that clips a corner: inside both conditions for as short as 1e-12, or missing it by as little.
 TEST(FirstEntry, a_clipped_corner_is_seen_and_a_missed_one_is_not_invented) {
   for (const double width : {1e-3, 1e-6, 1e-9, 1e-12})
@@ -240,7 +282,7 @@ TEST(FirstEntry, a_clipped_corner_is_seen_and_a_missed_one_is_not_invented) {
       for (const double sign : {1.0, -1.0}) {
         Conditions conditions;
         conditions.count = 2;
-        conditions.g[0] = from_roots({at}, -1.0);               // t - at
+        conditions.g[0] = from_roots({at}, -1.0);                // t - at
         conditions.g[1] = from_roots({at + sign * width}, 1.0);  // at +- width - t
         const Entry entry = first_entry(conditions, 1, 1.0);
         if (sign < 0.0) {
