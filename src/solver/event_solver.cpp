@@ -61,20 +61,22 @@ constexpr double kNoDeformation = 1e-18;
 /// Error of an implicit step as a share of the tolerance asked for.
 constexpr double kImplicitShare = 1e-2;
 
-/// Costs in series steps, counted in instructions: one evaluation of the forces in an implicit step with all that goes
-/// with it, also in the tanh layer, and a whole such step.
-constexpr double kEvaluationCost = 0.12, kLayerEvaluationCost = 0.2, kImplicitCost = 4.0;
+/// Times in those of a series step of one sliding contact: what an implicit step takes, and one evaluation of the
+/// forces in it, also in the tanh layer; a usual such step; a series step of contacts that stick or are several.
+constexpr double kStepCost = 4.5, kEvaluationCost = 0.1, kLayerStepCost = 1.5, kLayerEvaluationCost = 0.27;
+constexpr double kImplicitCost = 6.0, kGeneralSeriesCost = 2.5;
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
 /// may be saved for later losses: the short steps after a slip event.
-constexpr double kTrialShare = 0.15, kMostCredit = 100.0;
+constexpr double kTrialShare = 0.15, kMostCredit = 150.0;
 
 /// Series steps in one contact before an implicit one is tried.
 constexpr int kTrialAfter = 32;
 
 /// Shortest step worth trying, in series steps; at the very start, where nothing is known yet, it is longer. There, if
-/// no ring can be passed over, a step of the length kFirst is tried.
-constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0, kFirst = 96.0;
+/// no ring can be passed over, a step of the length kFirst is tried; but only where the way to the next kink is worth
+/// the question, which takes as long as 80 series steps.
+constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0, kFirst = 96.0, kShortestWay = 500.0;
 
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
@@ -121,6 +123,17 @@ bool any_loaded(const ContactStates& contacts) {
 bool any_in_layer(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const ContactState& c) { return c.phase == Phase::loaded && c.slip == Slip::regularized; });
+}
+
+/// One contact, which slides: the series have a loop of their own for it.
+bool only_slides(const ContactStates& contacts) {
+  int loaded = 0;
+  for (const ContactState& c : contacts) {
+    if (c.phase != Phase::loaded) continue;
+    if (c.slip == Slip::stick) return false;
+    ++loaded;
+  }
+  return loaded == 1;
 }
 
 Site first_sticking(const ContactStates& contacts) {
@@ -358,7 +371,7 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     const double step = first ? first_implicit_step(longest, drives)
                               : implicit_.take(state_, drives, longest, shortest, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
-    if (step == 0.0) settle_credit(0.0, longest);
+    if (step == 0.0 && stays_implicit_) settle_credit(0.0, longest);
     if (step > 0.0) {
       implicit_now_ = true;
       implicit_length_ = step;
@@ -374,14 +387,17 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
 /// Automatic: the first step of a trial that starts in contact. That does not come out of an impact: its ring may be
 /// small enough to be passed over by a long step, or may have decayed after a moderate one.
 double EventSolver::first_implicit_step(double longest, const DriveForms& drives) {
-  stays_implicit_ = true;
   series_step_ = std::min(series_contact_step(drives), longest);  // at rest it has no end
+  if (longest < kShortestWay * series_step_) return 0.0;
+  stays_implicit_ = true;
   const double shortest = kShortestFirst * series_step_;
   const double passing = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
   if (passing > 0.0) return passing;
   evaluations_before_ = counts_.rhs_evaluations;  // what the question has cost says nothing about implicit steps
   implicit_.suggest(kFirst * series_step_);
-  return implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+  const double moderate = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+  if (moderate == 0.0) stays_implicit_ = false;
+  return moderate;
 }
 
 /// Takes the implicit step again with the length `step`. False when that does not converge: the polynomials of the
@@ -401,9 +417,12 @@ void EventSolver::settle_credit(double gone, double longest) {
     series_step_ += weight * (gone - series_step_);
     return;
   }
-  const double cost = (any_in_layer(segment_.contacts) ? kLayerEvaluationCost : kEvaluationCost) *
-                      static_cast<double>(counts_.rhs_evaluations - evaluations_before_);
-  credit_ = std::min(credit_ + gone / series_step_ - cost, kMostCredit);
+  const bool layer = any_in_layer(segment_.contacts);
+  const double cost =
+      (layer ? kLayerStepCost : kStepCost) + (layer ? kLayerEvaluationCost : kEvaluationCost) *
+                                                 static_cast<double>(counts_.rhs_evaluations - evaluations_before_);
+  const double worth = (only_slides(segment_.contacts) ? 1.0 : kGeneralSeriesCost) * gone / series_step_;
+  credit_ = std::min(credit_ + worth - cost, kMostCredit);
   stays_implicit_ = implicit_now_ && credit_ > 0.0;
   if (!stays_implicit_) series_steps_ = 0;
 }

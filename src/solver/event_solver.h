@@ -66,10 +66,12 @@ class EventSolver final : public Solver {
   MotionSeries series_;
   FrictionChoice friction_;
   ImplicitStep implicit_;
-  bool implicit_now_ = false;  ///< the current segment is an implicit step
+  bool implicit_now_ = false;     ///< the current segment is an implicit step
   double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
-  bool stays_implicit_ = false;  ///< automatic: the next step in contact is an implicit one
-  double credit_ = 0.0;          ///< automatic: series steps' worth that implicit steps may lose beside the series
+  bool stays_implicit_ = false;   ///< automatic: the next step in contact is an implicit one
+  /// automatic: series steps' worth that implicit steps may lose beside the series; what the first that is tried may
+  /// cost has to be earned before
+  double credit_ = -10.0;
   int series_steps_ = 0;         ///< automatic: series steps in this contact since the last implicit one
   double series_step_ = 0.0;     ///< automatic: what a series step goes, mean of the last kTrialAfter
   long evaluations_before_ = 0;  ///< automatic: evaluations of the forces before the present step

@@ -118,7 +118,7 @@ TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
     for (const double stiffness : {1e6, 1e7, 1e8, 1e9, 1e10}) {
       const Scene scene = pressed(stiffness, 10.0);
       const auto implicit = static_cast<double>(run_with(scene, "implicit", tolerance).counts.steps);
-      EXPECT_LT(run_with(scene, "auto", tolerance).counts.steps, 1.2 * implicit) << stiffness;
+      EXPECT_LT(run_with(scene, "auto", tolerance).counts.steps, 1.4 * implicit) << stiffness;
     }
   // a start at rest, whose ring is passed over
   for (const double damping_ratio : {0.1, 10.0}) {
