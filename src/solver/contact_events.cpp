@@ -272,15 +272,23 @@ class Search {
     return pinned == 1 && normal_force[0] > 0.0 ? 0 : pinned;
   }
 
-  /// A condition that holds by no more than its last digits: its change decides.
-  bool is_rounding(double condition) const {
-    const double size = std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width + system_.base_distance +
-                        system_.slot_half_width;
-    return condition > 0.0 && condition <= kLengthRounding * size;
+  /// Last digits of lengths.
+  double length_rounding() const {
+    return kLengthRounding * (std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width +
+                              system_.base_distance + system_.slot_half_width);
+  }
+
+  /// True for a point that is still inside a base which is said to have recovered at once, and which it leaves faster
+  /// than the base can follow.
+  bool is_left_behind(Site site, Face face) const {
+    if (!system_.recovery || !is_called_for(system_, face)) return false;
+    const PlacedState placed(segment_.begin);
+    return contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() < 0.0;
   }
 
   void guard_outside(Site site) {
     const auto index = static_cast<std::size_t>(site);
+    const double rounding = length_rounding();
     for (int half = 0; half < region_count(site); ++half) {
       const Region region = site_region(system_, site, half);
       if (stays_outside(site, region, pins_[index].face)) continue;
@@ -293,9 +301,15 @@ class Search {
         const bool recovering = recoveries_[index].deformation > 0.0 && recoveries_[index].face == face;
         if (recovering) subtract_recovery(recoveries_[index], conditions.g[j]);
         const bool pinned = pins_[index].face == face && !recovering;
-        conditions.zeros_at_start[j] = pinned || is_rounding(conditions.g[j][0]) ? 1 : 0;
+        // of a condition that holds by no more than last digits its change decides
+        const double at_start = conditions.g[j][0];
+        conditions.zeros_at_start[j] = pinned || (at_start > 0.0 && at_start <= rounding) ? 1 : 0;
       }
-      const Entry entry = first_entry(conditions, order_, duration_);
+      Entry entry = first_entry(conditions, order_, duration_);
+      if (entry.time == 0.0 && is_left_behind(site, region.conditions[entry.last].face)) {
+        conditions.zeros_at_start[entry.last] = 1;
+        entry = first_entry(conditions, order_, duration_);
+      }
       if (entry.time == kNoRoot) continue;
       const Face face = region.conditions[entry.last].face;
       const bool touches = is_called_for(system_, face) && (face != Face::floor || over_floor(site, entry.time));
