@@ -42,10 +42,12 @@ struct BoundedCurve {
     if (from_zero ? !(rate < 0.0) : value >= 0.0) return 0.0;
     // its upper bound rises, falls where rate + acceleration s + 1/2 jerk s^2 < 0, and rises again
     double low = 0.0, high = longest;
+    const bool turns = rate > 0.0 && acceleration < 0.0;
+    if (!turns && highest(high) <= 0.0) return high;
     const double discriminant = acceleration * acceleration - 2.0 * jerk * rate;
     if (!std::isfinite(discriminant)) return 0.0;
     const double root = std::sqrt(std::max(discriminant, 0.0));
-    if (discriminant > 0.0 && rate > 0.0 && acceleration < 0.0) {
+    if (turns && discriminant > 0.0) {
       // the smaller zero in the form that loses no digits where the jerk is next to nothing
       const double maximum = 2.0 * rate / (root - acceleration);
       if (highest(std::min(maximum, longest)) > 0.0)
@@ -56,7 +58,7 @@ struct BoundedCurve {
       const double minimum = acceleration < 0.0 ? (root - acceleration) / jerk : -2.0 * rate / (root + acceleration);
       if (minimum > 0.0) low = std::min(minimum, longest);
     }
-    if (highest(high) <= 0.0) return high;
+    if (turns && highest(high) <= 0.0) return high;
     for (int i = 0; i < kHalvings || (low < 0.5 * high && i < kMostHalvings); ++i) {
       const double middle = 0.5 * (low + high);
       (highest(middle) <= 0.0 ? low : high) = middle;
