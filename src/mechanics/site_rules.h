@@ -38,6 +38,11 @@ Region face_limits(const System& system, Face face, const Vec2& p);
 /// Whether the scene uses the site at all.
 bool site_in_use(const System& system, Site site);
 
+/// Number of sites up to the last one in use.
+inline int site_end(const System& system) {
+  return system.has_floor ? kSiteCount : system.contacts.corners || system.contacts.walls ? 4 : 2;
+}
+
 /// Contact states of a start: points inside the other body touch the nearest of its faces that the scene calls for. The
 /// contacts that carry force (N > 0) are loaded; their friction is left to the hybrid step.
 void place_contacts(const System& system, const State& state, ContactStates& contacts);

@@ -46,7 +46,7 @@ class Search {
 
   FoundEvents run(const OutcomeGuards& outcomes) {
     int index = 0;
-    for (int i = 0; i < kSiteCount; ++i) {
+    for (int i = 0, end = site_end(system_); i < end; ++i) {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
       switch (segment_.contacts[i].phase) {

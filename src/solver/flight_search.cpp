@@ -35,6 +35,10 @@ constexpr int kMostSteps = 8;
 /// Faces on which points lie where a look begins: they are judged by how they move off it.
 using PinnedFaces = std::array<Face, kSiteCount>;
 
+bool any_on_face(const PinnedFaces& pinned) {
+  return std::any_of(pinned.begin(), pinned.end(), [](Face face) { return face != Face::none; });
+}
+
 /// The site that may have an event first: the time in which it surely has none, that in which nothing else has, and the
 /// least gap of all that do not lie on a face.
 struct Nearest {
@@ -82,9 +86,8 @@ class Search {
                          closes(view, nearest, left, outlook)))
         return outlook;
       // points that start on a face have to get off it first
-      const bool gets_off =
-          time > 0.0 && std::any_of(pinned.begin(), pinned.end(), [](Face face) { return face != Face::none; });
-      if (time < left && time * flight_.series_rate() < kShortestLeap && !gets_off) break;
+      const bool is_short = time < left && time * flight_.series_rate() < kShortestLeap;
+      if (is_short && !(time > 0.0 && any_on_face(pinned))) break;
       outlook.time = time == left ? longest : outlook.time + time;
       motion = flight_.motion_at(t_ + outlook.time);
       outlook.end = motion.state;
@@ -97,7 +100,7 @@ class Search {
  private:
   /// False where this way of looking does not reach: a point that is inside the other body without contact.
   bool find_nearest(const FlightView& view, const PinnedFaces& pinned, Nearest& nearest) const {
-    for (int i = 0; i < kSiteCount; ++i) {
+    for (int i = 0, end = site_end(system_); i < end; ++i) {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
       const Phase phase = contacts_[i].phase;
