@@ -2,8 +2,8 @@
 //
 // Scenes: the files named, and one part in lasting contact over stiffness and damping ratio of the base: shaken across
 // and along, it sticks and slips twenty times and never leaves the base; and shaken by forces with kinks, after each of
-// which the base rings, with all laws of friction. The three solvers take turns, so that what
-// else the computer does meets all of them alike; a time is the median of the turns.
+// which the base rings, with all laws of friction. The three solvers take turns, so that what else the computer does
+// meets all of them alike; a time is the median of the turns.
 // `> step limit`: more than a million steps. **: the ratio is above 1.3.
 // Usage: auto_choice TOLERANCE SCENE_FILE ...
 #include <algorithm>

@@ -103,9 +103,8 @@ double FreeMotion::late_acceleration(double t, const Waves::Values& waves) const
   double sum = 2.0 * p2_ + 6.0 * p3_ * t;
   if (square_ > 0.0) sum += slow_pull_ * waves.left[fall_];
   for (const Sine& sine : sines_) {
-    const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
     sum -= sine.frequency * sine.frequency *
-           (sine.sin_amplitude * (2.0 * half_s * half_c) + sine.cos_amplitude * (1.0 - 2.0 * half_s * half_s));
+           (sine.sin_amplitude * waves.sin(sine.wave) + sine.cos_amplitude * waves.cos(sine.wave));
   }
   return sum;
 }
@@ -113,8 +112,7 @@ double FreeMotion::late_acceleration(double t, const Waves::Values& waves) const
 double FreeMotion::acceleration_by_forces(double t, const Waves::Values& waves, double q, double v) const {
   double force = constant_ + slope_ * t;
   for (const Sine& sine : sines_) {
-    const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
-    force += sine.sin_force * (2.0 * half_s * half_c) + sine.cos_force * (1.0 - 2.0 * half_s * half_s);
+    force += sine.sin_force * waves.sin(sine.wave) + sine.cos_force * waves.cos(sine.wave);
   }
   return axis_.inverse_inertia * (force - axis_.damping * v - axis_.stiffness * (q - axis_.anchor));
 }

@@ -40,7 +40,8 @@ bool site_in_use(const System& system, Site site);
 
 /// Number of sites up to the last one in use.
 inline int site_end(const System& system) {
-  return system.has_floor ? kSiteCount : system.contacts.corners || system.contacts.walls ? 4 : 2;
+  const bool corners = system.contacts.corners || system.contacts.walls;
+  return system.has_floor ? kSiteCount : static_cast<int>(corners ? Site::b1_floor : Site::b1);
 }
 
 /// Contact states of a start: points inside the other body touch the nearest of its faces that the scene calls for. The

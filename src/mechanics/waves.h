@@ -14,6 +14,9 @@ class Waves {
     std::array<double, kMaxOscillations> half_sin, half_cos;  ///< of half the angle: 1 - cos a = 2 sin^2(a/2) is exact
     std::array<double, kMaxDecays> change;                    ///< exp(-rate t) - 1
     std::array<double, kMaxDecays> left;                      ///< exp(-rate t), whose digits change loses
+
+    double sin(int i) const { return 2.0 * half_sin[i] * half_cos[i]; }
+    double cos(int i) const { return 1.0 - 2.0 * half_sin[i] * half_sin[i]; }
   };
 
   void clear() {

@@ -136,21 +136,22 @@ TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
 
 // Rounding may leave nothing, or a last digit, of the way to a kink.
 TEST(Implicit, goes_over_every_kink_of_the_excitation) {
-  for (const char* waveform : {"square", "triangle"})
+  for (const Waveform waveform : {Waveform::square, Waveform::triangle})
     for (const char* friction : {"null", "{coefficient: 0.3, regularization: 0.2}"})
       for (const double stiffness : {3e3, 3e4, 3e5})
         for (const double frequency : {3.0, 8.4, 11.1, 16.5, 21.9, 30.0}) {
           Scene scene = test::scene_of(
               test::plain, {"gripper.pressing_force=2", "trial.time_limit=60", std::string("friction=") + friction});
           scene.initial.y.reset();
-          scene.excitations[0].waveform = std::string(waveform) == "square" ? Waveform::square : Waveform::triangle;
+          scene.excitations[0].waveform = waveform;
           scene.excitations[0].amplitude = 0.05;
           scene.excitations[0].frequency = frequency;
           scene.base.stiffness_x = scene.base.stiffness_y = stiffness;
           scene.base.damping_x = scene.base.damping_y = 0.3 * std::sqrt(stiffness);
           const TrialResult result = run_with(scene, "implicit", 1e-8);
-          EXPECT_NE(result.outcome, Outcome::failed) << waveform << ", friction " << friction << ", " << stiffness
-                                                     << ", " << frequency << ": " << result.failure;
+          EXPECT_NE(result.outcome, Outcome::failed)
+              << (waveform == Waveform::square ? "square" : "triangle") << ", friction " << friction << ", "
+              << stiffness << ", " << frequency << ": " << result.failure;
         }
 }
 
