@@ -10,6 +10,10 @@ namespace {
 /// Loss of digits through cancelling terms that the closed form is allowed before the series take over.
 constexpr double kLargestGain = 1e3;
 
+/// Near critical damping, |square| below the square of this part of the decay, the terms of the two modes nearly
+/// cancel.
+constexpr double kApart = 0.8;
+
 /// A mode has decayed when its velocity and third derivative are below these, relative to motions of order one.
 constexpr double kNoVelocity = 1e-18, kNoThird = 1e-6;
 
@@ -24,9 +28,7 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   exact_ = true;
   sines_.clear();
   p0_ = p1_ = p2_ = p3_ = 0.0;
-  early_ = late_ = {};
-  slow_ = {};
-  slow_pull_ = 0.0;
+  driven_ = {};
   early_rate_ = late_rate_ = 0.0;
   decayed_ = std::numeric_limits<double>::infinity();
   if (!axis_.moves) return;
@@ -51,7 +53,7 @@ void FreeMotion::add(const DriveForm& form) {
   const double size = axis_.stiffness + axis_.inertia * nu * nu;
   if (!(norm * kLargestGain * kLargestGain > size * size)) exact_ = false;
   const double s = form.amplitude * form.cos_phase, c = form.amplitude * form.sin_phase;
-  sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm, s, c});
+  sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm});
   // a response far larger than the motion cancels against the start
   if (!(std::hypot(sines_.back().sin_amplitude, sines_.back().cos_amplitude) < kLargestGain)) exact_ = false;
 }
@@ -88,33 +90,67 @@ void FreeMotion::settle(Waves& waves) {
   // overdamped: the slow rate without cancellation, and how far apart the two are
   fall_ = waves.add_decay(square_ > 0.0 ? slow_rate() : decay_);
   if (square_ > 0.0) ratio_ = waves.add_decay(2.0 * root_);
-  find_bounds();
+  find_modes();
 }
 
 double FreeMotion::slow_rate() const { return pull_ / (decay_ + root_); }
 
-double FreeMotion::moving_acceleration(double t, const Waves::Values& waves, double q, double v) const {
-  return t < decayed_ ? acceleration_by_forces(t, waves, q, v) : late_acceleration(t, waves);
+/// All in closed form. Forces of a stiff or light axis are large and cancel: their rounding, over the time in which it
+/// moves once its fast motion has decayed, would be more than the bounds know of.
+FreeMotion::Outlook FreeMotion::moving_outlook(double t, double end, const Waves::Values& waves) const {
+  Outlook outlook{2.0 * p2_ + 6.0 * p3_ * t, driven_};
+  const double p2 = std::abs(p2_), p3 = std::abs(p3_);
+  outlook.bounds.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
+  outlook.bounds.second += 2.0 * p2 + 6.0 * p3 * end;
+  outlook.bounds.third += 6.0 * p3;
+  for (const Sine& sine : sines_)
+    outlook.acceleration -= sine.frequency * sine.frequency *
+                            (sine.sin_amplitude * waves.sin(sine.wave) + sine.cos_amplitude * waves.cos(sine.wave));
+  if (apart_ && square_ > 0.0)
+    add_modes(waves, outlook);
+  else
+    add_free(t, waves, outlook);
+  return outlook;
 }
 
-/// What is left once the fastest mode has decayed. The forces of such an axis are large and cancel: their rounding,
-/// over the time in which it now moves, would be more than the bounds on the motion know of.
-double FreeMotion::late_acceleration(double t, const Waves::Values& waves) const {
-  double sum = 2.0 * p2_ + 6.0 * p3_ * t;
-  if (square_ > 0.0) sum += slow_pull_ * waves.left[fall_];
-  for (const Sine& sine : sines_) {
-    sum -= sine.frequency * sine.frequency *
-           (sine.sin_amplitude * waves.sin(sine.wave) + sine.cos_amplitude * waves.cos(sine.wave));
-  }
-  return sum;
+/// Two exponentials, each of which falls: what bounds it at one time bounds it ever after.
+void FreeMotion::add_modes(const Waves::Values& waves, Outlook& outlook) const {
+  const double slow = slow_rate(), fast = decay_ + root_;
+  const double slow_left = slow_ * waves.left[fall_], fast_left = fast_ * waves.left[fall_] * waves.left[ratio_];
+  outlook.acceleration += slow_left * slow * slow + fast_left * fast * fast;
+  outlook.bounds.add(std::abs(slow_left), slow);
+  outlook.bounds.add(std::abs(fast_left), fast);
 }
 
-double FreeMotion::acceleration_by_forces(double t, const Waves::Values& waves, double q, double v) const {
-  double force = constant_ + slope_ * t;
-  for (const Sine& sine : sines_) {
-    force += sine.sin_force * waves.sin(sine.wave) + sine.cos_force * waves.cos(sine.wave);
+/// c C + s S, with C and S as homogeneous() has them, but C itself: what is left of it keeps its digits.
+void FreeMotion::add_free(double t, const Waves::Values& waves, Outlook& outlook) const {
+  const double left = waves.left[fall_];
+  double slope = 0.0, sine = 0.0;  // S' and S
+  if (square_ < 0.0) {
+    sine = left * waves.sin(oscillation_) / root_;
+    slope = left * waves.cos(oscillation_) - decay_ * sine;
+  } else if (square_ > 0.0) {
+    sine = left * -waves.change[ratio_] / (2.0 * root_);
+    slope = left - (decay_ + root_) * sine;
+  } else {
+    sine = t * left;
+    slope = left - decay_ * sine;
   }
-  return axis_.inverse_inertia * (force - axis_.damping * v - axis_.stiffness * (q - axis_.anchor));
+  const double first = s_factor_ * slope - c_factor_ * pull_ * sine;
+  const double q = c_factor_ * (slope + 2.0 * decay_ * sine) + s_factor_ * sine;
+  const double second = -pull_ * q - 2.0 * decay_ * first;
+  outlook.acceleration += second;
+  Bounds& bounds = outlook.bounds;
+  if (apart_) {
+    bounds.add(swing_ * left, frequency_);
+    return;
+  }
+  // derivative n after a time s: exp(-a s) (q_n cosh(r s) + (q_n+1 + a q_n) sinh(r s)/r), the last below 1/2a
+  const double third = -pull_ * first - 2.0 * decay_ * second, fourth = -pull_ * second - 2.0 * decay_ * third;
+  const double most = decay_ > 0.0 ? 0.5 / decay_ : 0.0;
+  bounds.rate += std::abs(first) + std::abs(second + decay_ * first) * most;
+  bounds.second += std::abs(second) + std::abs(third + decay_ * second) * most;
+  bounds.third += std::abs(third) + std::abs(fourth + decay_ * third) * most;
 }
 
 /// Change of the particular solution since t = 0.
@@ -146,62 +182,27 @@ void FreeMotion::homogeneous(double t, const Waves::Values& waves, double& c_cha
   }
 }
 
-FreeMotion::Bounds FreeMotion::moving_bounds(double begin, double end) const {
-  Bounds b = begin < decayed_ ? early_ : late_;
-  const double left = slow_.amplitude > 0.0 ? slow_.amplitude * std::exp(-slow_.decay * begin) : 0.0;
-  b.rate += left * slow_.rate;
-  b.second += left * slow_.rate * slow_.rate;
-  b.third += left * slow_.rate * slow_.rate * slow_.rate;
-  const double p2 = std::abs(p2_), p3 = std::abs(p3_);
-  b.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
-  b.second += 2.0 * p2 + 6.0 * p3 * end;
-  b.third += 6.0 * p3;
-  return b;
-}
-
-/// Bounds of all but the polynomial part.
-void FreeMotion::find_bounds() {
+/// Amplitudes of the modes, and when the fastest has decayed.
+void FreeMotion::find_modes() {
+  for (const Sine& sine : sines_) driven_.add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
   const double c = c_factor_, s = s_factor_;
-  const auto add = [this](double amplitude, double rate) {
-    for (Bounds* b : {&early_, &late_}) {
-      b->rate += amplitude * rate;
-      b->second += amplitude * rate * rate;
-      b->third += amplitude * rate * rate * rate;
-    }
-  };
-  for (const Sine& sine : sines_) add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
+  apart_ = root_ > kApart * decay_;
+  double amplitude = 0.0, rate = 0.0, decay = 0.0;
   if (square_ < 0.0) {
-    fade({std::hypot(c, (s + decay_ * c) / root_), frequency_, decay_});
+    amplitude = swing_ = std::hypot(c, (s + decay_ * c) / root_);
+    rate = frequency_;
+    decay = decay_;
   } else if (square_ > 0.0) {
-    // the two decaying exponentials
-    const double fast = decay_ + root_, slow = slow_rate();
-    const double slow_amplitude = (c * fast + s) / (2.0 * root_);
-    slow_ = {std::abs(slow_amplitude), slow, slow};
-    slow_pull_ = slow_amplitude * slow * slow;
-    late_rate_ = std::max(late_rate_, slow);
-    fade({std::abs(c * slow + s) / (2.0 * root_), fast, fast});
+    slow_ = (c * (decay_ + root_) + s) / (2.0 * root_);
+    fast_ = -(c * slow_rate() + s) / (2.0 * root_);
+    amplitude = std::abs(fast_);
+    rate = decay = decay_ + root_;
+    late_rate_ = std::max(late_rate_, slow_rate());
   } else {
-    // (c + g t) exp(-a t): derivative n is at most a^n |c| + a^(n-1) |g| n
-    const double g = std::abs(s + decay_ * c);
-    add(std::abs(c), decay_);
-    early_.rate += g;
-    early_.second += 2.0 * g * decay_;
-    early_.third += 3.0 * g * decay_ * decay_;
+    return;
   }
-}
-
-/// Adds the fastest mode to the bounds, to the late ones what is left of it once it has decayed. It falls
-/// monotonically: what bounds it at one time bounds it ever after.
-void FreeMotion::fade(const Mode& fastest) {
-  const double rate = fastest.rate, velocity = fastest.amplitude * rate, third = velocity * rate * rate;
-  const double excess = std::max({velocity / kNoVelocity, third / kNoThird, 1.0});
-  if (fastest.decay > 0.0) decayed_ = std::log(excess) / fastest.decay;
-  early_.rate += velocity;
-  early_.second += velocity * rate;
-  early_.third += third;
-  late_.rate += velocity / excess;
-  late_.second += velocity * rate / excess;
-  late_.third += third / excess;
+  const double velocity = amplitude * rate, third = velocity * rate * rate;
+  if (decay > 0.0) decayed_ = std::log(std::max({velocity / kNoVelocity, third / kNoThird, 1.0})) / decay;
 }
 
 double FreeMotion::moving_rate(double t) const { return t < decayed_ ? early_rate_ : late_rate_; }

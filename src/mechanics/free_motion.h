@@ -25,11 +25,26 @@ class FreeMotion {
   void settle(Waves& waves);
   bool exact() const { return exact_; }
 
-  /// Bounds on the absolute values of q', q'', q''' between `begin` and `end`.
+  /// Bounds on the absolute values of q', q'', q'''.
   struct Bounds {
     double rate = 0.0, second = 0.0, third = 0.0;
+
+    /// Adds those of an oscillation, or of a decay at this rate.
+    void add(double amplitude, double frequency) {
+      rate += amplitude * frequency;
+      second += amplitude * frequency * frequency;
+      third += amplitude * frequency * frequency * frequency;
+    }
   };
-  Bounds bounds(double begin, double end) const { return axis_.moves ? moving_bounds(begin, end) : Bounds{}; }
+
+  /// The acceleration at time t after begin(), and bounds from then until `end`, from the waves at time t.
+  struct Outlook {
+    double acceleration = 0.0;
+    Bounds bounds;
+  };
+  Outlook outlook(double t, double end, const Waves::Values& waves) const {
+    return axis_.moves ? moving_outlook(t, end, waves) : Outlook{};
+  }
 
   /// Fastest rate of the motion from time t on, rad per unit of time: of all that has not decayed.
   double rate(double t) const { return axis_.moves ? moving_rate(t) : 0.0; }
@@ -44,33 +59,20 @@ class FreeMotion {
     if (axis_.moves) move(t, waves, q, v);
   }
 
-  /// Acceleration at time t after begin(), from the position and velocity at that time.
-  double acceleration(double t, const Waves::Values& waves, double q, double v) const {
-    return axis_.moves ? moving_acceleration(t, waves, q, v) : 0.0;
-  }
-
  private:
+  /// The response to one drive.
   struct Sine {
-    double frequency, sin_amplitude, cos_amplitude;  ///< of the response
-    double sin_force, cos_force;                     ///< amplitudes of the drive
+    double frequency, sin_amplitude, cos_amplitude;
     int wave = 0;
   };
 
   void move(double t, const Waves::Values& waves, double& q, double& v) const;
-  double moving_acceleration(double t, const Waves::Values& waves, double q, double v) const;
-  double acceleration_by_forces(double t, const Waves::Values& waves, double q, double v) const;
-  double late_acceleration(double t, const Waves::Values& waves) const;
-  Bounds moving_bounds(double begin, double end) const;
+  Outlook moving_outlook(double t, double end, const Waves::Values& waves) const;
   double moving_rate(double t) const;
-  /// A term amplitude exp(-decay t) of the free motion, or an oscillation within it; its n-th derivative is at most
-  /// amplitude rate^n exp(-decay t).
-  struct Mode {
-    double amplitude = 0.0, rate = 0.0, decay = 0.0;
-  };
-
   double slow_rate() const;
-  void find_bounds();
-  void fade(const Mode& fastest);
+  void find_modes();
+  void add_modes(const Waves::Values& waves, Outlook& outlook) const;
+  void add_free(double t, const Waves::Values& waves, Outlook& outlook) const;
   void homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const;
   void add_particular(double t, const Waves::Values& waves, double& q, double& v) const;
 
@@ -81,11 +83,12 @@ class FreeMotion {
   double pull_ = 0.0, frequency_ = 0.0;               ///< k/m and its root
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
-  Mode slow_;                                         ///< the slow exponential of an overdamped axis
-  double slow_pull_ = 0.0;                            ///< its second derivative at t = 0
-  Bounds early_, late_;  ///< of all else but the polynomial: at all times, and once the fastest mode has decayed
-  double early_rate_ = 0.0, late_rate_ = 0.0;
-  double decayed_ = 0.0;  ///< time from which on the late ones hold
+  bool apart_ = false;                         ///< it has modes whose bounds, one by one, are not far from their sum's
+  double slow_ = 0.0, fast_ = 0.0;             ///< amplitudes of the two exponentials of an overdamped axis
+  double swing_ = 0.0;                         ///< amplitude of the oscillation of an underdamped one
+  Bounds driven_;                              ///< of the response to the drives
+  double early_rate_ = 0.0, late_rate_ = 0.0;  ///< fastest ones until the fastest mode has decayed, and then
+  double decayed_ = 0.0;
   double c_factor_ = 0.0, s_factor_ = 0.0;
   int oscillation_ = 0, fall_ = 0, ratio_ = 0;  ///< places of its own oscillation and decays among the waves
   std::vector<Sine> sines_;

@@ -9,9 +9,9 @@ namespace vibratory_alignment {
 
 /// value + rate s + 1/2 acceleration s^2 at time s >= 0 from now, with an error of at most 1/6 jerk s^3.
 struct BoundedCurve {
-  /// Halvings with which the end of a time is found at least and at most: no more than to half of it. What is lost is
-  /// time, never certainty.
-  static constexpr int kHalvings = 8, kMostHalvings = 60;
+  /// The end of a time is known when so small a part of it is left open. What is lost is time, never certainty.
+  static constexpr double kNear = 0.05;
+  static constexpr int kMostSteps = 60;
 
   double value, rate, acceleration, jerk;
 
@@ -39,29 +39,57 @@ struct BoundedCurve {
   /// Time in [0, longest] up to which the curve surely stays at or below zero. `from_zero`: it starts at zero, its
   /// value is rounding, and is judged by what follows.
   double time_below(double longest, bool from_zero) const {
-    if (from_zero ? !(rate < 0.0) : value >= 0.0) return 0.0;
-    // its upper bound rises, falls where rate + acceleration s + 1/2 jerk s^2 < 0, and rises again
-    double low = 0.0, high = longest;
-    const bool turns = rate > 0.0 && acceleration < 0.0;
-    if (!turns && highest(high) <= 0.0) return high;
-    const double discriminant = acceleration * acceleration - 2.0 * jerk * rate;
-    if (!std::isfinite(discriminant)) return 0.0;
-    const double root = std::sqrt(std::max(discriminant, 0.0));
-    if (turns && discriminant > 0.0) {
-      // the smaller zero in the form that loses no digits where the jerk is next to nothing
-      const double maximum = 2.0 * rate / (root - acceleration);
-      if (highest(std::min(maximum, longest)) > 0.0)
-        high = std::min(maximum, longest);
-      else
-        low = std::min((root - acceleration) / jerk, longest);
-    } else if (rate <= 0.0) {
-      const double minimum = acceleration < 0.0 ? (root - acceleration) / jerk : -2.0 * rate / (root + acceleration);
-      if (minimum > 0.0) low = std::min(minimum, longest);
+    if (from_zero) return rate < 0.0 ? std::min(longest, return_to_zero()) : 0.0;
+    if (value >= 0.0) return 0.0;
+    // the upper bound bends down until its inflection, and up from there
+    const double inflection = acceleration < 0.0 ? std::min(longest, -acceleration / jerk) : 0.0;
+    if (rate > 0.0 && inflection > 0.0) {
+      const double discriminant = acceleration * acceleration - 2.0 * jerk * rate;
+      if (!std::isfinite(discriminant)) return 0.0;
+      // the maximum, in the form that loses no digits where the jerk is next to nothing
+      const double top = discriminant > 0.0 ? 2.0 * rate / (std::sqrt(discriminant) - acceleration) : inflection;
+      const double end = std::min(top, inflection);
+      if (highest(end) > 0.0) return rise_bending_down(end);
     }
-    if (turns && highest(high) <= 0.0) return high;
-    for (int i = 0; i < kHalvings || (low < 0.5 * high && i < kMostHalvings); ++i) {
-      const double middle = 0.5 * (low + high);
-      (highest(middle) <= 0.0 ? low : high) = middle;
+    return highest(longest) <= 0.0 ? longest : rise_bending_up(inflection, longest);
+  }
+
+ private:
+  double slope_of_highest(double s) const { return rate + s * (acceleration + s * (0.5 * jerk)); }
+
+  /// First positive zero of the upper bound if it starts at zero and falls.
+  double return_to_zero() const {
+    const double bend = 0.5 * acceleration, root = std::sqrt(bend * bend - jerk * rate * (2.0 / 3.0));
+    return bend > 0.0 ? -2.0 * rate / (bend + root) : (root - bend) / (jerk / 3.0);
+  }
+
+  /// Before the zero of the upper bound in [0, end], where it rises and bends down: Newton's steps stay before it.
+  double rise_bending_down(double end) const {
+    double s = -value / rate;
+    for (int i = 0; i < kMostSteps; ++i) {
+      const double step = -highest(s) / slope_of_highest(s);
+      if (!(step > 0.0 && s + step <= end)) break;
+      s += step;
+      if (step < kNear * s) break;
+    }
+    return s;
+  }
+
+  /// Before the zero of the upper bound in [low, high], where it bends up: Newton's steps come from beyond, chords
+  /// from before, somewhat shortened against rounding.
+  double rise_bending_up(double low, double high) const {
+    double below = highest(low);
+    if (!(below <= 0.0)) return 0.0;
+    high = std::min(high, estimated_rise());
+    for (int i = 0; i < kMostSteps; ++i) {
+      const double above = highest(high);
+      if (above <= 0.0) return high;
+      const double next = low - 0.99 * below * (high - low) / (above - below);
+      high -= above / slope_of_highest(high);
+      below = highest(next);
+      if (!(below <= 0.0)) break;
+      low = next;
+      if (!(high - low > kNear * high)) break;
     }
     return low;
   }

@@ -29,15 +29,14 @@ void Flight::at(double t, State& state) const {
   at(t, waves, state);
 }
 
-Flight::Motion Flight::motion_at(double t) const {
+Flight::Motion Flight::motion_at(double t, double end) const {
   Waves::Values waves;
   waves_.at(t, waves);
   Motion motion;
-  State& state = motion.state;
-  at(t, waves, state);
-  motion.ax = x_.acceleration(t, waves, state.x, state.vx);
-  motion.ay = y_.acceleration(t, waves, state.y, state.vy);
-  motion.alpha = phi_.acceleration(t, waves, state.phi, state.omega);
+  at(t, waves, motion.state);
+  motion.x = x_.outlook(t, end, waves);
+  motion.y = y_.outlook(t, end, waves);
+  motion.phi = phi_.outlook(t, end, waves);
   return motion;
 }
 

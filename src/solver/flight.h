@@ -22,12 +22,14 @@ class Flight {
   /// `state`.
   [[gnu::noinline]] void at(double t, State& state) const;
 
-  /// State and accelerations x'', y'', phi'' at time t since the start of an exact flight.
+  /// State and accelerations x'', y'', phi'' at a time since the start of an exact flight, and bounds on the absolute
+  /// values of the derivatives of the coordinates from then on.
   struct Motion {
     State state;
-    double ax = 0.0, ay = 0.0, alpha = 0.0;
+    FreeMotion::Outlook x, y, phi;
   };
-  Motion motion_at(double t) const;
+  /// The motion at time t, with bounds until `end`.
+  Motion motion_at(double t, double end) const;
 
   /// Forces of the excitations at time t since the start of the flight.
   Load3 drive_at(double t) const;
@@ -37,15 +39,6 @@ class Flight {
 
   /// Rate that a power series of the flight has to follow.
   double series_rate() const { return std::max({x_.series_rate(), y_.series_rate(), phi_.series_rate()}); }
-
-  /// Bounds on the absolute values of the derivatives of the coordinates between two times since the start of the
-  /// flight.
-  struct Bounds {
-    FreeMotion::Bounds x, y, phi;
-  };
-  Bounds bounds(double begin, double end) const {
-    return {x_.bounds(begin, end), y_.bounds(begin, end), phi_.bounds(begin, end)};
-  }
 
  private:
   void at(double t, const Waves::Values& waves, State& state) const;

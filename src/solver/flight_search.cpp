@@ -23,6 +23,9 @@ constexpr double kClosingSpan = 1.5;
 /// A landing is looked for where its estimate is at most so many times what is known to be free.
 constexpr double kFarthestLanding = 2.5;
 
+/// What comes later than so many times the time of what may come first is not looked at.
+constexpr double kFarBeyond = 1.5;
+
 /// A point touches a face alone where it is clear of corners, and all other points are clear of their faces, by this
 /// part of the lengths of the bodies.
 constexpr double kClear = 1e-6;
@@ -67,19 +70,23 @@ class Search {
 
   FlightOutlook run(const State& state, double longest) {
     FlightOutlook outlook;
-    Flight::Motion motion = flight_.motion_at(t_);
+    Flight::Motion motion;
+    double longest_leap = 0.0;
+    const auto look_from = [&](double now) {
+      longest_leap = std::min(longest - outlook.time, kLongestLeap / flight_.rate(now));
+      motion = flight_.motion_at(now, now + longest_leap);
+    };
+    look_from(t_);
     motion.state = outlook.end = state;
     PinnedFaces pinned{};
     for (std::size_t i = 0; i < kSiteCount; ++i) pinned[i] = pins_[i].face;
-    for (int i = 0; i < kMostLeaps; ++i) {
-      const double now = t_ + outlook.time, left = longest - outlook.time;
+    for (int i = 0; i < kMostLeaps && outlook.time < longest; ++i) {
       // seen from the part edges turn about it, also where its turning knows no rate
-      const double rate = std::max(flight_.rate(now), std::abs(motion.state.omega));
-      const double reach = std::min(left, kLongestLeap / rate);
-      const FlightView view(system_, motion, reach, flight_.bounds(now, now + reach));
+      const double reach = std::min(longest_leap, kLongestLeap / std::abs(motion.state.omega));
+      const FlightView view(system_, motion, reach);
       Nearest nearest;
-      if (!find_nearest(view, pinned, nearest)) break;
-      const double time = std::min(nearest.time, reach);
+      if (!find_nearest(view, pinned, reach, nearest)) break;
+      const double time = std::min(nearest.time, reach), left = longest - outlook.time;
       // of sites alike, or all beyond reach, none is the nearest: the mirror image would begin with another one
       const bool is_nearest = nearest.time < std::min(nearest.others, reach);
       if (is_nearest && (lands(view, nearest, pinned[static_cast<std::size_t>(nearest.site)], outlook) ||
@@ -89,18 +96,26 @@ class Search {
       const bool is_short = time < left && time * flight_.series_rate() < kShortestLeap;
       if (is_short && !(time > 0.0 && any_on_face(pinned))) break;
       outlook.time = time == left ? longest : outlook.time + time;
-      motion = flight_.motion_at(t_ + outlook.time);
+      look_from(t_ + outlook.time);
       outlook.end = motion.state;
       pinned = {};
-      if (outlook.time >= longest) break;
     }
     return outlook;
   }
 
  private:
-  /// False where this way of looking does not reach: a point that is inside the other body without contact.
-  bool find_nearest(const FlightView& view, const PinnedFaces& pinned, Nearest& nearest) const {
+  /// What may happen first, up to `reach`. False where this way of looking does not reach: a point that is inside the
+  /// other body without contact.
+  bool find_nearest(const FlightView& view, const PinnedFaces& pinned, double reach, Nearest& nearest) const {
+    double horizon = reach;
+    // nothing is asked much beyond what may come first, nor beyond what may come next
+    const auto look_no_farther = [&] {
+      const double far = nearest.time > 0.0 ? kFarBeyond * nearest.time : INFINITY;
+      horizon = std::min({reach, nearest.others, far});
+    };
     for (int i = 0, end = site_end(system_); i < end; ++i) {
+      // both sites of a pair are asked the same: the mirror image begins with the other one
+      if (i % 2 == 0) look_no_farther();
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
       const Phase phase = contacts_[i].phase;
@@ -116,31 +131,37 @@ class Search {
       for (int half = 0; half < region_count(site); ++half) {
         const Region region = site_region(system_, site, half);
         const Face face = pinned[static_cast<std::size_t>(i)];
-        if (!nearest.take(view.clearance(motion, region, face), face != Face::none)) continue;
+        if (!nearest.take(view.clearance(motion, region, face, horizon), face != Face::none)) continue;
         nearest.site = site;
         nearest.motion = motion;
         nearest.region = region;
       }
     }
-    if (outcomes_.aligned) outcome_ahead(view, system_.aligned_depth, true, nearest);
-    if (outcomes_.inserted) outcome_ahead(view, system_.inserted_depth, false, nearest);
+    look_no_farther();
+    if (outcomes_.aligned) outcome_ahead(view, system_.aligned_depth, true, horizon, nearest);
+    if (outcomes_.inserted) outcome_ahead(view, system_.inserted_depth, false, horizon, nearest);
     return true;
   }
 
   /// Both corners have to be below `depth` and, if asked, between the walls.
-  void outcome_ahead(const FlightView& view, double depth, bool between_walls, Nearest& nearest) const {
+  void outcome_ahead(const FlightView& view, double depth, bool between_walls, double horizon, Nearest& nearest) const {
     const double l = system_.slot_half_width;
     const RegionCondition asked[] = {
         {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
-    Clearance clearance{0.0, 0.0};
+    std::array<BoundedCurve, 6> curves;
+    std::size_t count = 0, farthest = 0;
     for (const Site site : {Site::b1, Site::b2}) {
       const PointMotion motion = view.point(site);
       for (int j = 0; j < (between_walls ? 3 : 1); ++j) {
-        clearance.gap = std::max(clearance.gap, -asked[j].value(motion.p));
-        if (clearance.time < view.longest())
-          clearance.time = std::max(clearance.time, motion.along(asked[j]).time_below(view.longest(), false));
+        curves[count] = motion.along(asked[j]);
+        if (curves[count].value < curves[farthest].value) farthest = count;
+        ++count;
       }
     }
+    // as long as one is missing; most often that which is farthest from holding
+    Clearance clearance{curves[farthest].time_below(horizon, false), -curves[farthest].value};
+    for (std::size_t k = 0; k < count && clearance.time < horizon; ++k)
+      if (k != farthest) clearance.time = std::max(clearance.time, curves[k].time_below(horizon, false));
     if (nearest.take(clearance, false)) nearest.is_outcome = true;
   }
 
@@ -163,7 +184,7 @@ class Search {
     double s = estimate;
     if (!find_crossing(nearest.site, face, crossing, view.longest(), outlook.time, s)) return false;
     const double time = outlook.time + s;
-    const Flight::Motion motion = flight_.motion_at(t_ + time);
+    const Flight::Motion motion = flight_.motion_at(t_ + time, t_ + time);
     const FlightView back = view.back_from(motion, s);
     const PointMotion point = back.point(nearest.site);
     const double clear = kClear * (system_.half_width + system_.base_distance + system_.slot_half_width);
@@ -174,7 +195,8 @@ class Search {
     PinnedFaces landed{};
     landed[static_cast<std::size_t>(nearest.site)] = face;
     Nearest before;
-    if (!find_nearest(back, landed, before) || !(nearest.time + before.time >= s && before.gap > clear)) return false;
+    const double unseen = std::max(s - nearest.time, 0.0);
+    if (!find_nearest(back, landed, unseen, before) || !(before.time >= unseen && before.gap > clear)) return false;
     outlook.time = time;
     outlook.lands = true;
     outlook.event = {EventKind::touch, nearest.site, face};

@@ -9,46 +9,48 @@ Vec2 turned(const Vec2& v) { return {-v.y, v.x}; }
 
 }  // namespace
 
-FlightView::FlightView(const System& system, const Flight::Motion& motion, double longest, const Flight::Bounds& bounds)
+FlightView::FlightView(const System& system, const Flight::Motion& motion, double longest)
     : system_(system),
       state_(motion.state),
       longest_(longest),
       tilt_(tilt_of(state_.phi)),
-      acceleration_{motion.ax, motion.ay},
-      turn_acceleration_(motion.alpha),
-      bounds_(bounds) {}
+      x_(motion.x),
+      y_(motion.y),
+      phi_(motion.phi) {}
 
 FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
   motion.state.vx = -motion.state.vx;
   motion.state.vy = -motion.state.vy;
   motion.state.omega = -motion.state.omega;
-  return {system_, motion, longest, bounds_};
+  motion.x.bounds = x_.bounds;
+  motion.y.bounds = y_.bounds;
+  motion.phi.bounds = phi_.bounds;
+  return {system_, motion, longest};
 }
 
 PointMotion FlightView::point(Site site) const {
   const auto [c, s] = tilt_;
   PointMotion m;
-  m.jerk = bounds_.x.third + bounds_.y.third;
+  m.jerk = x_.bounds.third + y_.bounds.third;
   if (is_edge(site)) {
     // body coordinates: r = A - C turned back by phi
     const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
-    const Vec2& a = acceleration_;
     m.p = {rx * c + ry * s, ry * c - rx * s};
     m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
-    m.acceleration = {-(a.x * c + a.y * s), a.x * s - a.y * c};
+    m.acceleration = {-(x_.acceleration * c + y_.acceleration * s), x_.acceleration * s - y_.acceleration * c};
     if (system_.phi.moves) turn_edge(m);
   } else {
     const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
     const Vec2 r{beta * c + b * s, beta * s - b * c};
     m.p = {state_.x + r.x, state_.y + r.y};
     m.rate = {state_.vx, state_.vy};
-    m.acceleration = acceleration_;
+    m.acceleration = {x_.acceleration, y_.acceleration};
     if (system_.phi.moves) turn_corner(r, m);
   }
   return m;
 }
 
-Clearance FlightView::clearance(const PointMotion& m, const Region& region, Face pinned) const {
+Clearance FlightView::clearance(const PointMotion& m, const Region& region, Face pinned, double horizon) const {
   // what is farthest from holding keeps the point out for longest: often no other condition has to be asked
   int farthest = 0;
   for (int j = 1; j < region.count; ++j)
@@ -56,19 +58,19 @@ Clearance FlightView::clearance(const PointMotion& m, const Region& region, Face
   const auto time_below = [&](int j) {
     const RegionCondition& condition = region.conditions[j];
     const bool from_zero = pinned != Face::none && condition.face == pinned;
-    return m.along(condition).time_below(longest_, from_zero);
+    return m.along(condition).time_below(horizon, from_zero);
   };
   double time = time_below(farthest);
-  for (int j = 0; j < region.count && time < longest_; ++j)
+  for (int j = 0; j < region.count && time < horizon; ++j)
     if (j != farthest) time = std::max(time, time_below(j));
   return {time, -region.conditions[farthest].value(m.p)};
 }
 
 /// What the part's turning adds to the motion of an edge as seen from the part.
 void FlightView::turn_edge(PointMotion& m) const {
-  const double omega = state_.omega, alpha = turn_acceleration_;
-  const double pull = bounds_.x.second + bounds_.y.second, speed = bounds_.x.rate + bounds_.y.rate;
-  const FreeMotion::Bounds& turn = bounds_.phi;
+  const double omega = state_.omega, alpha = phi_.acceleration;
+  const double pull = x_.bounds.second + y_.bounds.second, speed = x_.bounds.rate + y_.bounds.rate;
+  const FreeMotion::Bounds& turn = phi_.bounds;
   const Vec2 jp = turned(m.p), jv = turned(m.rate);
   m.rate = {m.rate.x - omega * jp.x, m.rate.y - omega * jp.y};
   m.acceleration = {m.acceleration.x - 2.0 * omega * jv.x - alpha * jp.x - omega * omega * m.p.x,
@@ -79,7 +81,7 @@ void FlightView::turn_edge(PointMotion& m) const {
 
 /// ... to that of a corner at r from the mass centre.
 void FlightView::turn_corner(const Vec2& r, PointMotion& m) const {
-  const double omega = state_.omega, alpha = turn_acceleration_;
+  const double omega = state_.omega, alpha = phi_.acceleration;
   const Vec2 jr = turned(r);
   m.rate = {m.rate.x + omega * jr.x, m.rate.y + omega * jr.y};
   m.acceleration = {m.acceleration.x + alpha * jr.x - omega * omega * r.x,
@@ -88,7 +90,7 @@ void FlightView::turn_corner(const Vec2& r, PointMotion& m) const {
 }
 
 void FlightView::add_turning_jerk(double reach, PointMotion& m) const {
-  const FreeMotion::Bounds& turn = bounds_.phi;
+  const FreeMotion::Bounds& turn = phi_.bounds;
   m.jerk += reach * (turn.third + 3.0 * turn.rate * turn.second + turn.rate * turn.rate * turn.rate);
 }
 

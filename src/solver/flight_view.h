@@ -31,8 +31,8 @@ struct Clearance {
 /// The flight as seen at one of its times, ahead or back.
 class FlightView {
  public:
-  /// Sees as far as `longest` from `motion`; `bounds` hold until there.
-  FlightView(const System& system, const Flight::Motion& motion, double longest, const Flight::Bounds& bounds);
+  /// Sees as far as `longest` from `motion`, whose bounds hold until there.
+  FlightView(const System& system, const Flight::Motion& motion, double longest);
 
   /// From `motion`, to which this view reaches, back as far as `longest`: time runs the other way, and rates with it.
   FlightView back_from(Flight::Motion motion, double longest) const;
@@ -42,9 +42,9 @@ class FlightView {
   /// In the axes of what the site may touch: an edge in those of the part, a corner in those of the world.
   PointMotion point(Site site) const;
 
-  /// How long the point surely stays out of the region, as long as any one of its conditions fails, and how far out it
-  /// is now. `pinned`: the face on which it lies.
-  Clearance clearance(const PointMotion& motion, const Region& region, Face pinned) const;
+  /// How long, up to `horizon`, the point surely stays out of the region, as long as any one of its conditions fails,
+  /// and how far out it is now. `pinned`: the face on which it lies.
+  Clearance clearance(const PointMotion& motion, const Region& region, Face pinned, double horizon) const;
 
   double stiffness(Face face) const { return stiffness_of(system_, face, tilt_.cos, tilt_.sin); }
   double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
@@ -58,9 +58,7 @@ class FlightView {
   State state_;
   double longest_;
   Tilt tilt_;
-  Vec2 acceleration_;
-  double turn_acceleration_;
-  Flight::Bounds bounds_;
+  FreeMotion::Outlook x_, y_, phi_;
 };
 
 }  // namespace vibratory_alignment

@@ -20,12 +20,10 @@ class LoneMotion : public FreeMotion {
     FreeMotion::at(t, values, q, v);
   }
 
-  double acceleration(double t) const {
+  Outlook outlook(double t, double end) const {
     Waves::Values values;
     waves_.at(t, values);
-    double q = 0.0, v = 0.0;
-    FreeMotion::at(t, values, q, v);
-    return FreeMotion::acceleration(t, values, q, v);
+    return FreeMotion::outlook(t, end, values);
   }
 
  private:

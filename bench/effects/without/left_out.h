@@ -41,7 +41,6 @@ class LockedMotion : public FreeMotion {
     q_ = q;
   }
   constexpr bool exact() const { return true; }
-  typename FreeMotion::Bounds bounds(double, double) const { return {}; }
   constexpr double rate(double) const { return 0.0; }
   constexpr double series_rate() const { return 0.0; }
   template <typename Waves>
@@ -50,8 +49,8 @@ class LockedMotion : public FreeMotion {
     v = 0.0;
   }
   template <typename Waves>
-  constexpr double acceleration(double, const Waves&, double, double) const {
-    return 0.0;
+  typename FreeMotion::Outlook outlook(double, double, const Waves&) const {
+    return {};
   }
 
  private:
