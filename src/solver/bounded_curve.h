@@ -48,8 +48,7 @@ struct BoundedCurve {
       if (!std::isfinite(discriminant)) return 0.0;
       // the maximum, in the form that loses no digits where the jerk is next to nothing
       const double top = discriminant > 0.0 ? 2.0 * rate / (std::sqrt(discriminant) - acceleration) : inflection;
-      const double end = std::min(top, inflection);
-      if (highest(end) > 0.0) return rise_bending_down(end);
+      if (highest(std::min(top, inflection)) > 0.0) return rise_bending_down();
     }
     return highest(longest) <= 0.0 ? longest : rise_bending_up(inflection, longest);
   }
@@ -63,12 +62,12 @@ struct BoundedCurve {
     return bend > 0.0 ? -2.0 * rate / (bend + root) : (root - bend) / (jerk / 3.0);
   }
 
-  /// Before the zero of the upper bound in [0, end], where it rises and bends down: Newton's steps stay before it.
-  double rise_bending_down(double end) const {
+  /// Before the first zero of the upper bound, up to which it rises and bends down: Newton's steps stay before it.
+  double rise_bending_down() const {
     double s = -value / rate;
     for (int i = 0; i < kMostSteps; ++i) {
       const double step = -highest(s) / slope_of_highest(s);
-      if (!(step > 0.0 && s + step <= end)) break;
+      if (!(step > 0.0)) break;
       s += step;
       if (step < kNear * s) break;
     }
