@@ -29,8 +29,8 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   sines_.clear();
   p0_ = p1_ = p2_ = p3_ = 0.0;
   driven_ = {};
-  early_rate_ = late_rate_ = 0.0;
-  decayed_ = std::numeric_limits<double>::infinity();
+  driven_rate_ = own_rate_ = 0.0;
+  fading_ = {};
   if (!axis_.moves) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   decay_ = 0.5 * h / m;
@@ -60,9 +60,9 @@ void FreeMotion::add(const DriveForm& form) {
 
 void FreeMotion::settle(Waves& waves) {
   if (!axis_.moves) return;
-  early_rate_ = square_ > 0.0 ? decay_ + root_ : frequency_;
-  for (const Sine& sine : sines_) late_rate_ = std::max(late_rate_, sine.frequency);
-  early_rate_ = std::max(early_rate_, late_rate_);
+  own_rate_ = square_ > 0.0 ? decay_ + root_ : frequency_;
+  fading_[0] = {own_rate_, std::numeric_limits<double>::infinity()};
+  for (const Sine& sine : sines_) driven_rate_ = std::max(driven_rate_, sine.frequency);
   if (!exact_) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   if (k > 0.0) {
@@ -182,30 +182,36 @@ void FreeMotion::homogeneous(double t, const Waves::Values& waves, double& c_cha
   }
 }
 
-/// Amplitudes of the modes, and when the fastest has decayed.
+/// Amplitudes of the modes, and when they have decayed.
 void FreeMotion::find_modes() {
   for (const Sine& sine : sines_) driven_.add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
-  const double c = c_factor_, s = s_factor_;
+  const double c = c_factor_, s = s_factor_, slow = square_ > 0.0 ? slow_rate() : decay_;
   apart_ = root_ > kApart * decay_;
-  double amplitude = 0.0, rate = 0.0, decay = 0.0;
-  if (square_ < 0.0) {
-    amplitude = swing_ = std::hypot(c, (s + decay_ * c) / root_);
-    rate = frequency_;
-    decay = decay_;
-  } else if (square_ > 0.0) {
-    slow_ = (c * (decay_ + root_) + s) / (2.0 * root_);
-    fast_ = -(c * slow_rate() + s) / (2.0 * root_);
-    amplitude = std::abs(fast_);
-    rate = decay = decay_ + root_;
-    late_rate_ = std::max(late_rate_, slow_rate());
+  if (!apart_) {
+    // t exp(-slow t) falls below exp(-slow t / 2) / slow
+    if (slow > 0.0) fading_[0] = fading(std::abs(c) + std::abs(s + decay_ * c) / slow, own_rate_, 0.5 * slow);
+  } else if (square_ < 0.0) {
+    swing_ = std::hypot(c, (s + decay_ * c) / root_);
+    fading_[0] = fading(swing_, own_rate_, decay_);
   } else {
-    return;
+    slow_ = (c * (decay_ + root_) + s) / (2.0 * root_);
+    fast_ = -(c * slow + s) / (2.0 * root_);
+    fading_ = {fading(std::abs(fast_), own_rate_, own_rate_), fading(std::abs(slow_), slow, slow)};
   }
-  const double velocity = amplitude * rate, third = velocity * rate * rate;
-  if (decay > 0.0) decayed_ = std::log(std::max({velocity / kNoVelocity, third / kNoThird, 1.0})) / decay;
 }
 
-double FreeMotion::moving_rate(double t) const { return t < decayed_ ? early_rate_ : late_rate_; }
+FreeMotion::Fading FreeMotion::fading(double amplitude, double rate, double decay) {
+  const double velocity = amplitude * rate, third = velocity * rate * rate;
+  const double excess = std::max({velocity / kNoVelocity, third / kNoThird, 1.0});
+  return {rate, decay > 0.0 ? std::log(excess) / decay : std::numeric_limits<double>::infinity()};
+}
+
+double FreeMotion::moving_rate(double t) const {
+  double rate = driven_rate_;
+  for (const Fading& part : fading_)
+    if (t < part.until) rate = std::max(rate, part.rate);
+  return rate;
+}
 
 /// Position and velocity of an axis that moves.
 void FreeMotion::move(double t, const Waves::Values& waves, double& q, double& v) const {

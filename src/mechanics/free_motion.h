@@ -3,6 +3,8 @@
 // for under-, critically and over-damped axes, k = 0 and h = 0 included.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "mechanics/drive.h"
@@ -50,7 +52,7 @@ class FreeMotion {
   double rate(double t) const { return axis_.moves ? moving_rate(t) : 0.0; }
 
   /// Fastest rate of the equation of motion, which a power series has to follow also where no such motion is left.
-  double series_rate() const { return axis_.moves ? early_rate_ : 0.0; }
+  double series_rate() const { return std::max(own_rate_, driven_rate_); }
 
   /// Position and velocity at time t >= 0 after begin(), from the waves at that time.
   void at(double t, const Waves::Values& waves, double& q, double& v) const {
@@ -71,6 +73,11 @@ class FreeMotion {
   double moving_rate(double t) const;
   double slow_rate() const;
   void find_modes();
+  /// A part of the motion, at most amplitude exp(-decay t): its rate, and until when it counts.
+  struct Fading {
+    double rate = 0.0, until = 0.0;
+  };
+  static Fading fading(double amplitude, double rate, double decay);
   void add_modes(const Waves::Values& waves, Outlook& outlook) const;
   void add_free(double t, const Waves::Values& waves, Outlook& outlook) const;
   void homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const;
@@ -83,12 +90,12 @@ class FreeMotion {
   double pull_ = 0.0, frequency_ = 0.0;               ///< k/m and its root
   double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
   double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
-  bool apart_ = false;                         ///< it has modes whose bounds, one by one, are not far from their sum's
-  double slow_ = 0.0, fast_ = 0.0;             ///< amplitudes of the two exponentials of an overdamped axis
-  double swing_ = 0.0;                         ///< amplitude of the oscillation of an underdamped one
-  Bounds driven_;                              ///< of the response to the drives
-  double early_rate_ = 0.0, late_rate_ = 0.0;  ///< fastest ones until the fastest mode has decayed, and then
-  double decayed_ = 0.0;
+  bool apart_ = false;                                ///< far enough from critical damping to be bounded mode by mode
+  double slow_ = 0.0, fast_ = 0.0;                    ///< amplitudes of the two exponentials of an overdamped axis
+  double swing_ = 0.0;                                ///< amplitude of the oscillation of an underdamped one
+  Bounds driven_;                                     ///< of the response to the drives
+  double own_rate_ = 0.0, driven_rate_ = 0.0;         ///< fastest rates of the axis itself and of its drives
+  std::array<Fading, 2> fading_;                      ///< of its own motion
   double c_factor_ = 0.0, s_factor_ = 0.0;
   int oscillation_ = 0, fall_ = 0, ratio_ = 0;  ///< places of its own oscillation and decays among the waves
   std::vector<Sine> sines_;

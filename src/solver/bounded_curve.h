@@ -39,7 +39,7 @@ struct BoundedCurve {
   /// Time in [0, longest] up to which the curve surely stays at or below zero. `from_zero`: it starts at zero, its
   /// value is rounding, and is judged by what follows.
   double time_below(double longest, bool from_zero) const {
-    if (from_zero) return rate < 0.0 ? std::min(longest, return_to_zero()) : 0.0;
+    if (from_zero) return rate < 0.0 ? std::min(return_to_zero(), longest) : 0.0;
     if (value >= 0.0) return 0.0;
     // the upper bound bends down until its inflection, and up from there
     const double inflection = acceleration < 0.0 ? std::min(longest, -acceleration / jerk) : 0.0;
@@ -56,10 +56,13 @@ struct BoundedCurve {
  private:
   double slope_of_highest(double s) const { return rate + s * (acceleration + s * (0.5 * jerk)); }
 
-  /// First positive zero of the upper bound if it starts at zero and falls.
+  /// First positive zero of the upper bound if it starts at zero and falls: of rate + 1/2 acceleration s + 1/6 jerk
+  /// s^2.
   double return_to_zero() const {
-    const double bend = 0.5 * acceleration, root = std::sqrt(bend * bend - jerk * rate * (2.0 / 3.0));
-    return bend > 0.0 ? -2.0 * rate / (bend + root) : (root - bend) / (jerk / 3.0);
+    const double bend = 0.5 * acceleration, square = bend * bend - jerk * rate * (2.0 / 3.0);
+    if (!std::isfinite(square)) return 0.0;
+    if (bend > 0.0) return -2.0 * rate / (bend + std::sqrt(square));
+    return jerk > 0.0 ? (std::sqrt(square) - bend) / (jerk / 3.0) : INFINITY;
   }
 
   /// Before the first zero of the upper bound, up to which it rises and bends down: Newton's steps stay before it.

@@ -75,6 +75,13 @@ TEST(BoundedCurve, no_time_is_told_where_a_number_is_missing) {
         EXPECT_EQ((BoundedCurve{-1.0, rate, acceleration, missing}.time_below(10.0, false)), 0.0);
         EXPECT_EQ((BoundedCurve{-1.0, rate, missing, 1.0}.time_below(10.0, false)), 0.0);
       }
+  for (const double missing : {std::nan(""), HUGE_VAL})
+    for (const double acceleration : {-1.0, 0.0, 1.0}) {
+      EXPECT_EQ((BoundedCurve{0.0, -1.0, acceleration, missing}.time_below(10.0, true)), 0.0);
+      EXPECT_EQ((BoundedCurve{0.0, -1.0, missing, 1.0}.time_below(10.0, true)), 0.0);
+      EXPECT_EQ((BoundedCurve{0.0, -1.0, -missing, 1.0}.time_below(10.0, true)), 0.0);
+    }
+  EXPECT_LE((BoundedCurve{0.0, -1e200, 0.0, 1e200}.time_below(10.0, true)), std::sqrt(6.0));
   // -1 + 1e200 (s - s^2 / 2) is above zero soon, but the square of a coefficient is no number
   EXPECT_LE((BoundedCurve{-1.0, 1e200, -1e200, 0.0}.time_below(10.0, false)), 1.01e-200);
   EXPECT_EQ((BoundedCurve{-1.0, NAN, 1.0, 1.0}.time_below(10.0, false)), 0.0);

@@ -50,8 +50,10 @@ TEST(FreeMotionBounds, hold_at_every_sampled_time) {
     axis.inverse_inertia = 1.0 / axis.inertia;
     axis.stiffness = i % 7 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
     axis.damping = i % 5 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
-    // critical damping, and beside it
-    if (i % 11 < 3) axis.damping = 2.0 * std::sqrt(axis.stiffness * axis.inertia) * (1.0 + i % 11 * 1e-4 * u(random));
+    // critical damping, and beside it: by half at most, down to rounding
+    if (i % 11 < 6)
+      axis.damping =
+          2.0 * std::sqrt(axis.stiffness * axis.inertia) * (1.0 + std::pow(1e-4, i % 11 % 5) * 0.5 * u(random));
     const DriveForms drives = random_drives(random);
     test::LoneMotion motion(static_cast<std::size_t>(drives.count));
     motion.begin(axis, u(random), u(random), 0.3 * u(random));
@@ -100,6 +102,7 @@ TEST(FreeMotionBounds, forget_what_has_decayed) {
   EXPECT_NEAR(bounds.third, std::abs(q) * slow * slow * slow, 1e-9 * bounds.third);
   EXPECT_NEAR(bounds.rate, std::abs(v), 1e-9);
   EXPECT_NEAR(motion.rate(begin), slow, 1e-9 * slow);
+  EXPECT_EQ(motion.rate(5.0), 0.0);  // exp(-5 slow) = 1e-77
   EXPECT_GT(motion.outlook(0.0, 1.0).bounds.third, 1e12);
   EXPECT_GT(motion.rate(0.0), 1e7);
 }
@@ -133,6 +136,23 @@ TEST(FreeMotionBounds, are_close_on_what_decays) {
         EXPECT_LT(bounds.second, 5.0 * most.second) << ratio << ", " << v << ", " << begin;
         EXPECT_LT(bounds.third, 5.0 * most.third) << ratio << ", " << v << ", " << begin;
       }
+}
+
+// What no longer moves has no rate, at whatever damping, the critical one too; until then it has that of the axis.
+TEST(FreeMotionBounds, a_stiff_axis_at_rest_has_no_rate) {
+  for (const double ratio : {0.1, 0.7, 0.9, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.0006, 1.5, 2.0}) {
+    Axis axis;
+    axis.moves = true;
+    axis.inertia = axis.inverse_inertia = 1.0;
+    axis.stiffness = 1e12;
+    axis.damping = 2.0 * ratio * 1e6;
+    test::LoneMotion motion(0);
+    motion.begin(axis, 0.3, -2.0, 0.0);
+    motion.settle();
+    EXPECT_GE(motion.rate(1e-6), 1e6 * (1.0 - 1e-12)) << ratio;
+    EXPECT_GE(motion.rate(5e-6), 2.6e5) << ratio;
+    EXPECT_EQ(motion.rate(1e-2), 0.0) << ratio;
+  }
 }
 
 /// The deepest any site of the system is inside the other body.
