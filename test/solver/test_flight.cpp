@@ -107,6 +107,29 @@ TEST(FreeMotionBounds, forget_what_has_decayed) {
   EXPECT_GT(motion.rate(0.0), 1e7);
 }
 
+// A drive goes on; and where there is no closed form, nothing tells when the axis' own motion has decayed.
+TEST(FreeMotionBounds, a_drive_keeps_its_rate) {
+  Axis axis;
+  axis.moves = true;
+  axis.inertia = axis.inverse_inertia = 1.0;
+  axis.stiffness = 100.0;
+  axis.damping = 4.0;
+  for (const double chirp : {0.0, 0.1}) {
+    DriveForm form;
+    form.amplitude = 0.3;
+    form.frequency = 7.0;
+    form.cos_phase = 1.0;
+    form.rate = chirp;
+    test::LoneMotion motion(1);
+    motion.begin(axis, 0.1, 0.0, 0.0);
+    motion.add(form);
+    motion.settle();
+    EXPECT_EQ(motion.exact(), chirp == 0.0);
+    EXPECT_EQ(motion.rate(0.0), 10.0);
+    EXPECT_EQ(motion.rate(1e3), chirp == 0.0 ? 7.0 : 10.0);
+  }
+}
+
 // Whatever the damping, critical or beside it, bounds are not far from what comes: below 5 times the greatest value
 // from then on.
 TEST(FreeMotionBounds, are_close_on_what_decays) {
