@@ -47,7 +47,7 @@ bool any_on_face(const PinnedFaces& pinned) {
 struct Nearest {
   double time = INFINITY, others = INFINITY, gap = INFINITY;
   Site site = Site::a1;
-  Region region;
+  int half = 0;  ///< which of its regions
   PointMotion motion;
   bool is_outcome = false;
 
@@ -59,6 +59,13 @@ struct Nearest {
     if (nearer) time = t;
     if (!on_face) gap = std::min(gap, clearance.gap);
     return nearer;
+  }
+  /// Nothing is asked much beyond what may come first, nor beyond what may come next.
+  double horizon(double reach) const { return std::min({reach, others, time > 0.0 ? kFarBeyond * time : INFINITY}); }
+  void is_at(Site at, int of_its_halves, const PointMotion& point) {
+    site = at;
+    half = of_its_halves;
+    motion = point;
   }
 };
 
@@ -107,39 +114,35 @@ class Search {
   /// What may happen first, up to `reach`. False where this way of looking does not reach: a point that is inside the
   /// other body without contact.
   bool find_nearest(const FlightView& view, const PinnedFaces& pinned, double reach, Nearest& nearest) const {
-    double horizon = reach;
-    // nothing is asked much beyond what may come first, nor beyond what may come next
-    const auto look_no_farther = [&] {
-      const double far = nearest.time > 0.0 ? kFarBeyond * nearest.time : INFINITY;
-      horizon = std::min({reach, nearest.others, far});
-    };
-    for (int i = 0, end = site_end(system_); i < end; ++i) {
-      // both sites of a pair are asked the same: the mirror image begins with the other one
-      if (i % 2 == 0) look_no_farther();
-      const auto site = static_cast<Site>(i);
-      if (!site_in_use(system_, site)) continue;
-      const Phase phase = contacts_[i].phase;
-      if (phase != Phase::outside && phase != Phase::unloaded) return false;
-      const PointMotion motion = view.point(site);
-      if (phase == Phase::unloaded) {
-        if (nearest.take({0.0, 0.0}, false)) {
-          nearest.site = site;
-          nearest.motion = motion;
-        }
-        continue;
-      }
-      for (int half = 0; half < region_count(site); ++half) {
-        const Region region = site_region(system_, site, half);
-        const Face face = pinned[static_cast<std::size_t>(i)];
-        if (!nearest.take(view.clearance(motion, region, face, horizon), face != Face::none)) continue;
-        nearest.site = site;
-        nearest.motion = motion;
-        nearest.region = region;
-      }
-    }
-    look_no_farther();
+    if (!ask<Site::a1>(view, pinned, reach, nearest) || !ask<Site::b1>(view, pinned, reach, nearest) ||
+        !ask<Site::b1_floor>(view, pinned, reach, nearest))
+      return false;
+    const double horizon = nearest.horizon(reach);
     if (outcomes_.aligned) outcome_ahead(view, system_.aligned_depth, true, horizon, nearest);
     if (outcomes_.inserted) outcome_ahead(view, system_.inserted_depth, false, horizon, nearest);
+    return true;
+  }
+
+  /// When the sites of a pair, whose first one is given, may have an event: both are asked the same, as the mirror
+  /// image begins with the other one. False for a point that is inside the other body without contact.
+  template <Site first>
+  bool ask(const FlightView& view, const PinnedFaces& pinned, double reach, Nearest& nearest) const {
+    if (!site_in_use(system_, first)) return true;
+    const double horizon = nearest.horizon(reach);
+    for (int i = static_cast<int>(first); i < static_cast<int>(first) + 2; ++i) {
+      const auto site = static_cast<Site>(i);
+      const Phase phase = contacts_[i].phase;
+      const PointMotion motion = view.point(site);
+      if (phase == Phase::unloaded) {
+        if (nearest.take({0.0, 0.0}, false)) nearest.is_at(site, 0, motion);
+        continue;
+      }
+      if (phase != Phase::outside) return false;
+      for (int half = 0; half < region_count(first); ++half) {
+        const Clearance clearance = view.clearance(motion, site_region(system_, first, half), pinned[i], horizon);
+        if (nearest.take(clearance, pinned[i] != Face::none)) nearest.is_at(site, half, motion);
+      }
+    }
     return true;
   }
 
@@ -169,16 +172,17 @@ class Search {
   /// back from there see together leaves no time for another one.
   bool lands(const FlightView& view, const Nearest& nearest, Face pinned, FlightOutlook& outlook) const {
     if (nearest.is_outcome || !(nearest.time > 0.0)) return false;
+    const Region region = site_region(system_, nearest.site, nearest.half);
     int crossed = 0, undecided = 0;
-    for (int j = 0; j < nearest.region.count; ++j) {
-      const RegionCondition& condition = nearest.region.conditions[j];
+    for (int j = 0; j < region.count; ++j) {
+      const RegionCondition& condition = region.conditions[j];
       if (condition.face != pinned && condition.value(nearest.motion.p) > 0.0) continue;
       ++undecided;
       crossed = j;
     }
-    const Face face = nearest.region.conditions[crossed].face;
+    const Face face = region.conditions[crossed].face;
     if (undecided != 1 || !is_called_for(system_, face) || face == Face::floor) return false;
-    const BoundedCurve crossing = nearest.motion.along(nearest.region.conditions[crossed]);
+    const BoundedCurve crossing = nearest.motion.along(region.conditions[crossed]);
     const double estimate = crossing.estimated_rise();
     if (!(estimate <= std::min(kFarthestLanding * nearest.time, view.longest()))) return false;
     double s = estimate;
@@ -188,8 +192,8 @@ class Search {
     const FlightView back = view.back_from(motion, s);
     const PointMotion point = back.point(nearest.site);
     const double clear = kClear * (system_.half_width + system_.base_distance + system_.slot_half_width);
-    for (int j = 0; j < nearest.region.count; ++j) {
-      const RegionCondition& condition = nearest.region.conditions[j];
+    for (int j = 0; j < region.count; ++j) {
+      const RegionCondition& condition = region.conditions[j];
       if (j != crossed && !(condition.value(point.p) > clear)) return false;
     }
     PinnedFaces landed{};
