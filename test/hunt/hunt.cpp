@@ -1,13 +1,11 @@
 #include "hunt.h"
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <utility>
 
 namespace vibratory_alignment::hunt {
 namespace {
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void allow_open_fault(Verdict& verdict) {
   verdict.open = !verdict.faults.empty();
@@ -31,7 +29,7 @@ Hunt::~Hunt() {
 void Hunt::work(Worker& worker) {
   for (long i = next_++; i < options_.count && !stopped_; i = next_++) {
     const std::uint64_t seed = options_.from + static_cast<std::uint64_t>(i);
-    worker.started = now_s();
+    worker.started = cpu_time_s();
     worker.seed = static_cast<std::int64_t>(seed);
     Verdict verdict = judge(random_scene(seed, options_.range), options_.range);
     if (std::find(options_.open.begin(), options_.open.end(), seed) != options_.open.end()) allow_open_fault(verdict);
@@ -47,6 +45,10 @@ void Hunt::work(Worker& worker) {
   --running_;
 }
 
+double Hunt::cpu_time_s() const {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC) / options_.threads;
+}
+
 Tally Hunt::tally() const {
   const std::lock_guard lock(tally_mutex_);
   return tally_;
@@ -55,7 +57,7 @@ Tally Hunt::tally() const {
 std::int64_t Hunt::hanging(double seconds) const {
   for (const auto& worker : workers_) {
     const std::int64_t seed = worker->seed;
-    if (seed >= 0 && now_s() - worker->started > seconds) return seed;
+    if (seed >= 0 && cpu_time_s() - worker->started > seconds) return seed;
   }
   return -1;
 }

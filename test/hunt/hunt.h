@@ -37,17 +37,20 @@ class Hunt {
   /// Ends it after the scenes that are under way.
   void stop() { stopped_ = true; }
   Tally tally() const;
-  /// The seed that has been under way for longer than `seconds`, or -1.
+  /// The seed that has been under way for longer than `seconds` of CPU time, or -1.
   std::int64_t hanging(double seconds) const;
 
  private:
   struct Worker {
     std::atomic<std::int64_t> seed{-1};  ///< under way, -1: none
-    std::atomic<double> started{0.0};    ///< seconds of a steady clock
+    std::atomic<double> started{0.0};    ///< CPU time at its start, s
     std::thread thread;
   };
 
   void work(Worker& worker);
+  /// CPU time of the process for each of its threads: a computer that sleeps, or does something else, lets nothing
+  /// hang.
+  double cpu_time_s() const;
 
   HuntOptions options_;
   OnFailure on_failure_;
