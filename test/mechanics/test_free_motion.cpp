@@ -22,17 +22,6 @@ struct Motion {
   double q, v, a;
 };
 
-Axis axis_of(double inertia, double damping, double stiffness, double anchor) {
-  Axis axis;
-  axis.moves = true;
-  axis.inertia = inertia;
-  axis.inverse_inertia = 1.0 / inertia;
-  axis.damping = damping;
-  axis.stiffness = stiffness;
-  axis.anchor = anchor;
-  return axis;
-}
-
 DriveForm constant(double value, double slope = 0.0) {
   DriveForm form;
   form.constant = value;
@@ -160,36 +149,36 @@ void expect_solution(const Axis& axis, double longest, Slopes slopes = Slopes::w
   }
 }
 
-TEST(FreeMotion, underdamped) { expect_solution(axis_of(1.0, 0.05, 1.0, 0.6), 30.0); }
-TEST(FreeMotion, undamped) { expect_solution(axis_of(0.3, 0.0, 60.0, -0.1), 30.0); }
-TEST(FreeMotion, overdamped) { expect_solution(axis_of(0.149, 9.0, 7.3, 0.02), 30.0); }
-TEST(FreeMotion, critically_damped) { expect_solution(axis_of(1.0, 4.0, 4.0, 0.6), 20.0); }
-TEST(FreeMotion, without_stiffness) { expect_solution(axis_of(1.0, 0.8, 0.0, 0.0), 20.0); }
-TEST(FreeMotion, without_damping_and_stiffness) { expect_solution(axis_of(0.7, 0.0, 0.0, 0.0), 20.0); }
-TEST(FreeMotion, light_inertia) { expect_solution(axis_of(1e-6, 0.05, 60.0, 0.1), 1.0); }
-TEST(FreeMotion, heavy_inertia) { expect_solution(axis_of(1e3, 0.05, 60.0, 0.1), 30.0); }
+TEST(FreeMotion, underdamped) { expect_solution(test::axis_of(1.0, 0.05, 1.0, 0.6), 30.0); }
+TEST(FreeMotion, undamped) { expect_solution(test::axis_of(0.3, 0.0, 60.0, -0.1), 30.0); }
+TEST(FreeMotion, overdamped) { expect_solution(test::axis_of(0.149, 9.0, 7.3, 0.02), 30.0); }
+TEST(FreeMotion, critically_damped) { expect_solution(test::axis_of(1.0, 4.0, 4.0, 0.6), 20.0); }
+TEST(FreeMotion, without_stiffness) { expect_solution(test::axis_of(1.0, 0.8, 0.0, 0.0), 20.0); }
+TEST(FreeMotion, without_damping_and_stiffness) { expect_solution(test::axis_of(0.7, 0.0, 0.0, 0.0), 20.0); }
+TEST(FreeMotion, light_inertia) { expect_solution(test::axis_of(1e-6, 0.05, 60.0, 0.1), 1.0); }
+TEST(FreeMotion, heavy_inertia) { expect_solution(test::axis_of(1e3, 0.05, 60.0, 0.1), 30.0); }
 
 TEST(FreeMotion, keeps_the_digits_of_what_is_left) {
-  expect_digits_of_what_is_left(axis_of(1.0, 2.0, 1.0, 0.0));
-  expect_digits_of_what_is_left(axis_of(1.0, 1.9, 1.0, 0.0));
-  expect_digits_of_what_is_left(axis_of(1.0, 2.2, 1.0, 0.0));
+  expect_digits_of_what_is_left(test::axis_of(1.0, 2.0, 1.0, 0.0));
+  expect_digits_of_what_is_left(test::axis_of(1.0, 1.9, 1.0, 0.0));
+  expect_digits_of_what_is_left(test::axis_of(1.0, 2.2, 1.0, 0.0));
 }
 
 TEST(FreeMotion, near_critical_damping_from_both_sides) {
   for (const double off : {1e-3, 1e-6, 1e-9, 1e-12, 3e-16})
     for (const double sign : {1.0, -1.0}) {
       SCOPED_TRACE(sign * off);
-      expect_solution(axis_of(1.0, 4.0 * (1.0 + sign * off), 4.0, 0.6), 20.0);
+      expect_solution(test::axis_of(1.0, 4.0 * (1.0 + sign * off), 4.0, 0.6), 20.0);
     }
 }
 
 // The fast rate is h/m, the slow one k/h: twelve decades apart. (A growing force is followed h/k behind: too far.)
-TEST(FreeMotion, hugely_overdamped) { expect_solution(axis_of(1.0, 1e6, 1.0, 0.6), 30.0, Slopes::without); }
+TEST(FreeMotion, hugely_overdamped) { expect_solution(test::axis_of(1.0, 1e6, 1.0, 0.6), 30.0, Slopes::without); }
 
 // A soft spring is no case of its own as long as its equilibrium is not far away.
 TEST(FreeMotion, nearly_vanishing_stiffness) {
   for (const double k : {1e-3, 1e-8, 1e-14, 1e-30}) {
-    const Axis axis = axis_of(1.0, 0.05, k, 0.2);
+    const Axis axis = test::axis_of(1.0, 0.05, k, 0.2);
     test::LoneMotion motion(1);
     motion.begin(axis, 0.83, -0.37, 0.0);
     motion.add(sine(1.0, 20.0, 0.4));
@@ -218,31 +207,32 @@ bool claims_exact(const Axis& axis, const DriveForm& form, double force = 0.0) {
 
 // At resonance without damping there is no steady response: the closed form must step back, at it and close to it.
 TEST(FreeMotion, steps_back_at_undamped_resonance) {
-  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
   for (const double off : {1e-15, 1e-12, 1e-9, 1e-6, 1e-4})
     for (const double sign : {1.0, -1.0}) {
-      EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.0 * (1.0 + sign * off), 0.3))) << sign * off;
+      EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.0 * (1.0 + sign * off), 0.3)))
+          << sign * off;
     }
 }
 
 TEST(FreeMotion, stays_exact_where_no_digits_are_lost) {
   // damped resonance, and beside an undamped one
-  EXPECT_TRUE(claims_exact(axis_of(1.0, 0.05, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
-  EXPECT_TRUE(claims_exact(axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.02, 0.3)));
-  EXPECT_TRUE(claims_exact(axis_of(0.149, 1.33, 7.3, 0.0), sine(1.0, 20.0, 0.0)));
-  EXPECT_TRUE(claims_exact(axis_of(1.0, 0.05, 0.05, 0.2), constant(1.0)));
+  EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.05, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
+  EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.02, 0.3)));
+  EXPECT_TRUE(claims_exact(test::axis_of(0.149, 1.33, 7.3, 0.0), sine(1.0, 20.0, 0.0)));
+  EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.05, 0.05, 0.2), constant(1.0)));
 }
 
 TEST(FreeMotion, steps_back_where_the_equilibrium_is_far_away) {
-  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 1e-9, 0.0), constant(1.0)));
-  EXPECT_FALSE(claims_exact(axis_of(1.0, 1e-9, 0.0, 0.0), constant(1.0)));
-  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.0, 1e-9, 0.0), constant(0.0), -0.3));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 1e-9, 0.0), constant(1.0)));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 1e-9, 0.0, 0.0), constant(1.0)));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 1e-9, 0.0), constant(0.0), -0.3));
 }
 
 TEST(FreeMotion, steps_back_during_a_chirp) {
   DriveForm chirp = sine(1.0, 20.0, 0.3);
   chirp.rate = 0.5;
-  EXPECT_FALSE(claims_exact(axis_of(1.0, 0.05, 1.0, 0.0), chirp));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.05, 1.0, 0.0), chirp));
 }
 
 TEST(FreeMotion, is_claimed_only_where_it_holds_on_random_axes) {
@@ -253,13 +243,13 @@ TEST(FreeMotion, is_claimed_only_where_it_holds_on_random_axes) {
     const double m = std::pow(10.0, 0.25 * decade(random)), h = std::pow(10.0, decade(random)) * (i % 5 != 0);
     const double k = std::pow(10.0, decade(random)) * (i % 7 != 0);
     const double nu = std::pow(10.0, 0.5 * decade(random));
-    claimed += claims_exact(axis_of(m, h, k, 0.4), sine(1.0, nu, phase(random)), 0.2);
+    claimed += claims_exact(test::axis_of(m, h, k, 0.4), sine(1.0, nu, phase(random)), 0.2);
   }
   EXPECT_GT(claimed, 75);  // stepping back always would be right, and useless
 }
 
 TEST(FreeMotion, a_locked_axis_stands_still) {
-  Axis axis = axis_of(1.0, 0.1, 1.0, 0.6);
+  Axis axis = test::axis_of(1.0, 0.1, 1.0, 0.6);
   axis.moves = false;
   axis.inverse_inertia = 0.0;
   test::LoneMotion motion(1);
@@ -278,8 +268,9 @@ TEST(FreeMotion, starts_where_it_starts) {
   std::mt19937 random(20240502);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   int exact = 0;
-  for (const Axis& axis : {axis_of(1.0, 0.05, 4.0, 0.6), axis_of(0.3, 0.0, 60.0, -0.1), axis_of(0.149, 9.0, 7.3, 0.02),
-                           axis_of(1.0, 4.0, 4.0, 0.6), axis_of(1.0, 0.8, 0.0, 0.0), axis_of(0.7, 0.0, 0.0, 0.0)})
+  for (const Axis& axis :
+       {test::axis_of(1.0, 0.05, 4.0, 0.6), test::axis_of(0.3, 0.0, 60.0, -0.1), test::axis_of(0.149, 9.0, 7.3, 0.02),
+        test::axis_of(1.0, 4.0, 4.0, 0.6), test::axis_of(1.0, 0.8, 0.0, 0.0), test::axis_of(0.7, 0.0, 0.0, 0.0)})
     for (const double off : {0.3, 0.03, 0.003, 0.0})
       for (int i = 0; i < 20; ++i) {
         const double q0 = u(random), v0 = u(random),
@@ -301,9 +292,9 @@ TEST(FreeMotion, starts_where_it_starts) {
 
 // A new flight knows nothing of the one before it.
 TEST(FreeMotion, begins_anew) {
-  const Axis axis = axis_of(1.0, 0.05, 1.0, 0.6);
+  const Axis axis = test::axis_of(1.0, 0.05, 1.0, 0.6);
   test::LoneMotion used(2), fresh(2);
-  used.begin(axis_of(1.0, 0.0, 0.0, 0.0), 5.0, 1.0, 2.0);
+  used.begin(test::axis_of(1.0, 0.0, 0.0, 0.0), 5.0, 1.0, 2.0);
   used.add(sine(1.0, 3.0, 1.0));
   used.add(constant(0.3, 0.4));
   used.settle();

@@ -44,10 +44,7 @@ TEST(FreeMotionBounds, hold_at_every_sampled_time) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   int tried = 0;
   for (int i = 0; i < 400; ++i) {
-    Axis axis;
-    axis.moves = true;
-    axis.inertia = std::pow(10.0, u(random));
-    axis.inverse_inertia = 1.0 / axis.inertia;
+    Axis axis = test::axis_of(std::pow(10.0, u(random)), 0.0, 0.0, 0.0);
     axis.stiffness = i % 7 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
     axis.damping = i % 5 == 0 ? 0.0 : std::pow(10.0, 1.5 * u(random));
     // critical damping, and beside it: by half at most, down to rounding
@@ -82,12 +79,7 @@ TEST(FreeMotionBounds, hold_at_every_sampled_time) {
 
 // A fast mode that has decayed leaves the slow one, c exp(-r t) with m r^2 - h r + k = 0, and neither more nor less.
 TEST(FreeMotionBounds, forget_what_has_decayed) {
-  Axis axis;
-  axis.moves = true;
-  axis.inertia = 1e-8;
-  axis.inverse_inertia = 1e8;
-  axis.stiffness = 11.0;
-  axis.damping = 0.31;
+  const Axis axis = test::axis_of(1e-8, 0.31, 11.0, 0.0);
   test::LoneMotion motion(0);
   motion.begin(axis, 0.02, -3.0, 0.0);
   motion.settle();
@@ -109,11 +101,7 @@ TEST(FreeMotionBounds, forget_what_has_decayed) {
 
 // A drive goes on; and where there is no closed form, nothing tells when the axis' own motion has decayed.
 TEST(FreeMotionBounds, a_drive_keeps_its_rate) {
-  Axis axis;
-  axis.moves = true;
-  axis.inertia = axis.inverse_inertia = 1.0;
-  axis.stiffness = 100.0;
-  axis.damping = 4.0;
+  const Axis axis = test::axis_of(1.0, 4.0, 100.0, 0.0);
   for (const double chirp : {0.0, 0.1}) {
     DriveForm form;
     form.amplitude = 0.3;
@@ -136,11 +124,7 @@ TEST(FreeMotionBounds, are_close_on_what_decays) {
   for (const double ratio : {0.05, 0.3, 0.7, 0.85, 0.95, 0.999, 1.0, 1.001, 1.05, 1.1, 1.2, 2.0, 20.0})
     for (const double v : {-30.0, -3.0, 0.0, 1.0, 40.0})
       for (const double begin : {0.0, 0.05, 0.6}) {
-        Axis axis;
-        axis.moves = true;
-        axis.inertia = axis.inverse_inertia = 1.0;
-        axis.stiffness = 81.0;
-        axis.damping = 2.0 * ratio * 9.0;
+        const Axis axis = test::axis_of(1.0, 2.0 * ratio * 9.0, 81.0, 0.0);
         test::LoneMotion motion(0);
         motion.begin(axis, 0.7, v, 0.0);
         motion.settle();
@@ -164,13 +148,8 @@ TEST(FreeMotionBounds, are_close_on_what_decays) {
 // What no longer moves has no rate, at whatever damping, the critical one too; until then it has that of the axis.
 TEST(FreeMotionBounds, a_stiff_axis_at_rest_has_no_rate) {
   for (const double ratio : {0.1, 0.7, 0.9, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.0006, 1.5, 2.0}) {
-    Axis axis;
-    axis.moves = true;
-    axis.inertia = axis.inverse_inertia = 1.0;
-    axis.stiffness = 1e12;
-    axis.damping = 2.0 * ratio * 1e6;
     test::LoneMotion motion(0);
-    motion.begin(axis, 0.3, -2.0, 0.0);
+    motion.begin(test::axis_of(1.0, 2.0 * ratio * 1e6, 1e12, 0.0), 0.3, -2.0, 0.0);
     motion.settle();
     EXPECT_GE(motion.rate(1e-6), 1e6 * (1.0 - 1e-12)) << ratio;
     EXPECT_GE(motion.rate(5e-6), 2.6e5) << ratio;

@@ -5,6 +5,18 @@
 
 namespace vibratory_alignment::test {
 
+/// An axis that moves.
+inline Axis axis_of(double inertia, double damping, double stiffness, double anchor) {
+  Axis axis;
+  axis.moves = true;
+  axis.inertia = inertia;
+  axis.inverse_inertia = 1.0 / inertia;
+  axis.damping = damping;
+  axis.stiffness = stiffness;
+  axis.anchor = anchor;
+  return axis;
+}
+
 class LoneMotion : public FreeMotion {
  public:
   using FreeMotion::FreeMotion;
