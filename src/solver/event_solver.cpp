@@ -61,23 +61,6 @@ constexpr double kNoDeformation = 1e-18;
 /// Error of an implicit step as a share of the tolerance asked for.
 constexpr double kImplicitShare = 1e-2;
 
-/// Times in those of a series step of one sliding contact: what an implicit step takes, and one evaluation of the
-/// forces in it, also in the tanh layer; a usual such step; a series step of contacts that stick or are several.
-constexpr double kStepCost = 4.5, kEvaluationCost = 0.1, kLayerStepCost = 1.5, kLayerEvaluationCost = 0.27;
-constexpr double kImplicitCost = 6.0, kGeneralSeriesCost = 2.5;
-
-/// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
-/// may be saved for later losses: the short steps after a slip event.
-constexpr double kTrialShare = 0.15, kMostCredit = 150.0;
-
-/// Series steps in one contact before an implicit one is tried.
-constexpr int kTrialAfter = 32;
-
-/// Shortest step worth trying, in series steps; at the very start, where nothing is known yet, it is longer. There, if
-/// no ring can be passed over, a step of the length kFirst is tried; but only where the way to the next kink is worth
-/// the question, which takes as long as 80 series steps.
-constexpr double kShortestTrial = 2.0, kShortestFirst = 24.0, kFirst = 96.0, kShortestWay = 500.0;
-
 /// Halvings of a step within which sticking contacts have to move apart.
 constexpr int kMostHalvings = 50;
 
@@ -118,22 +101,6 @@ bool rings_base(EventKind kind) {
 
 bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
-}
-
-bool any_in_layer(const ContactStates& contacts) {
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const ContactState& c) { return c.phase == Phase::loaded && c.slip == Slip::regularized; });
-}
-
-/// One contact, which slides: the series have a loop of their own for it.
-bool only_slides(const ContactStates& contacts) {
-  int loaded = 0;
-  for (const ContactState& c : contacts) {
-    if (c.phase != Phase::loaded) continue;
-    if (c.slip == Slip::stick) return false;
-    ++loaded;
-  }
-  return loaded == 1;
 }
 
 Site first_sticking(const ContactStates& contacts) {
@@ -293,6 +260,7 @@ void EventSolver::go_to_end() {
     rings = rings || rings_base(kind);
   }
   if (segment_.event_count > 0) implicit_.restart(rings);
+  if (rings) choice_.ring();
 }
 
 /// Flies in one segment in closed form, without series, to the next event if that is certain, or as far as nothing can
@@ -353,25 +321,22 @@ double EventSolver::direction_step(double step, double point_tolerance) {
   return pair_step(series_.direction(segment_), segment_.order, tolerance);
 }
 
-/// One step in contact of at most `longest`, by the method that is due. Automatic: implicit steps are tried on credit.
-/// The series earn it as a share of their cost; what an implicit step brings beyond its cost adds to it or takes from
-/// it, and when it is used up the series take over again.
+/// One step in contact of at most `longest`, by the method that is due.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
-  const bool first = method_ == ContactMethod::automatic && now_.value() == 0.0;
-  double shortest = 0.0;
-  if (method_ == ContactMethod::automatic && !first && !stays_implicit_ && series_steps_ >= kTrialAfter &&
-      credit_ >= kTrialShare * kTrialAfter) {
-    implicit_.suggest(2.0 * kImplicitCost * series_step_);
-    shortest = kShortestTrial * series_step_;
-    stays_implicit_ = true;
+  const bool automatic = method_ == ContactMethod::automatic;
+  const bool first = automatic && now_.value() == 0.0;
+  StepBounds bounds{longest};
+  if (automatic && !first && choice_.starts_trial()) {
+    implicit_.suggest(choice_.trial_length());
+    bounds = choice_.trial_bounds(longest);
   }
   evaluations_before_ = counts_.rhs_evaluations;
   // to a kink or limit that is here already, when rounding left nothing on the way, the series go
-  if (longest > 0.0 && (first || method_ == ContactMethod::implicit || stays_implicit_)) {
-    const double step = first ? first_implicit_step(longest, drives)
-                              : implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+  if (longest > 0.0 && (first || method_ == ContactMethod::implicit || choice_.implicit())) {
+    const double step =
+        first ? first_implicit_step(longest, drives) : implicit_.take(state_, drives, bounds, segment_, counts_);
     if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
-    if (step == 0.0 && stays_implicit_) settle_credit(0.0, longest);
+    if (step == 0.0 && choice_.implicit()) settle(0.0, longest);
     if (step > 0.0) {
       implicit_now_ = true;
       implicit_length_ = step;
@@ -379,24 +344,21 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
       return step;
     }
   }
-  ++series_steps_;
-  credit_ = std::min(credit_ + kTrialShare, kMostCredit);
+  if (automatic) choice_.earn();
   return series_contact_step(drives);
 }
 
 /// Automatic: the first step of a trial that starts in contact. That does not come out of an impact: its ring may be
 /// small enough to be passed over by a long step, or may have decayed after a moderate one.
 double EventSolver::first_implicit_step(double longest, const DriveForms& drives) {
-  series_step_ = std::min(series_contact_step(drives), longest);  // at rest it has no end
-  if (longest < kShortestWay * series_step_) return 0.0;
-  stays_implicit_ = true;
-  const double shortest = kShortestFirst * series_step_;
-  const double passing = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
+  if (!choice_.starts_first(series_contact_step(drives), longest, segment_.contacts)) return 0.0;
+  const StepBounds bounds = choice_.first_bounds(longest);
+  const double passing = implicit_.take(state_, drives, bounds, segment_, counts_);
   if (passing > 0.0) return passing;
   evaluations_before_ = counts_.rhs_evaluations;  // what the question has cost says nothing about implicit steps
-  implicit_.suggest(kFirst * series_step_);
-  const double moderate = implicit_.take(state_, drives, longest, shortest, segment_, counts_);
-  if (moderate == 0.0) stays_implicit_ = false;
+  implicit_.suggest(choice_.moderate_first());
+  const double moderate = implicit_.take(state_, drives, bounds, segment_, counts_);
+  if (moderate == 0.0) choice_.drop();
   return moderate;
 }
 
@@ -408,23 +370,13 @@ bool EventSolver::shorten_implicit_step(double step) {
   return taken;
 }
 
-/// What a step of the length `gone` has been worth, once its end is known: an event cuts it short, and the way to there
-/// is gone again. An implicit step pays with its credit, a series step counts in what such steps are worth.
-void EventSolver::settle_credit(double gone, double longest) {
-  if (method_ != ContactMethod::automatic || gone == longest) return;  // one cut short at the end says nothing
-  if (!stays_implicit_) {
-    const double weight = 1.0 / std::clamp(series_steps_, 1, kTrialAfter);
-    series_step_ += weight * (gone - series_step_);
-    return;
-  }
-  const bool layer = any_in_layer(segment_.contacts);
-  const double cost =
-      (layer ? kLayerStepCost : kStepCost) + (layer ? kLayerEvaluationCost : kEvaluationCost) *
-                                                 static_cast<double>(counts_.rhs_evaluations - evaluations_before_);
-  const double worth = (only_slides(segment_.contacts) ? 1.0 : kGeneralSeriesCost) * gone / series_step_;
-  credit_ = std::min(credit_ + worth - cost, kMostCredit);
-  stays_implicit_ = implicit_now_ && credit_ > 0.0;
-  if (!stays_implicit_) series_steps_ = 0;
+/// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
+/// is gone again.
+void EventSolver::settle(double gone, double longest) {
+  if (choice_.implicit())
+    choice_.settle_implicit(gone, longest, counts_.rhs_evaluations - evaluations_before_, segment_.contacts);
+  else
+    choice_.settle_series(gone, longest, segment_.contacts);
 }
 
 const Segment& EventSolver::advance(double limit) {
@@ -454,8 +406,7 @@ const Segment& EventSolver::advance(double limit) {
   if (contact) {
     in_flight_ = false;
   } else {
-    stays_implicit_ = false;
-    series_steps_ = 0;
+    choice_.leave_contact();
     // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
     const double flown = in_flight_ ? now_ - flight_.start() : 0.0;
     const bool long_ago = in_flight_ && flown * flight_.rate(flown) > kLongestFlight;
@@ -513,7 +464,7 @@ const Segment& EventSolver::advance(double limit) {
       if (implicit_now_ && found.time > 0.0) shorten_implicit_step(found.time);
     }
   }
-  if (contact) settle_credit(segment_.duration, end);
+  if (contact && method_ == ContactMethod::automatic) settle(segment_.duration, end);
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
     fail("the step has become too short");

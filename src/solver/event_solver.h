@@ -4,13 +4,11 @@
 
 #include "solver/flight.h"
 #include "solver/implicit_step.h"
+#include "solver/method_choice.h"
 #include "solver/solver.h"
 #include "solver/transitions.h"
 
 namespace vibratory_alignment {
-
-/// How contact is stepped: power series, implicit steps, or whichever goes further for its cost.
-enum class ContactMethod { series, implicit, automatic };
 
 class EventSolver final : public Solver {
  public:
@@ -37,7 +35,7 @@ class EventSolver final : public Solver {
   double contact_step(double longest, const DriveForms& drives);
   double first_implicit_step(double longest, const DriveForms& drives);
   bool shorten_implicit_step(double step);
-  void settle_credit(double gone, double longest);
+  void settle(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
@@ -68,13 +66,8 @@ class EventSolver final : public Solver {
   ImplicitStep implicit_;
   bool implicit_now_ = false;     ///< the current segment is an implicit step
   double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
-  bool stays_implicit_ = false;   ///< automatic: the next step in contact is an implicit one
-  /// automatic: series steps' worth that implicit steps may lose beside the series; what the first that is tried may
-  /// cost has to be earned before
-  double credit_ = -10.0;
-  int series_steps_ = 0;         ///< automatic: series steps in this contact since the last implicit one
-  double series_step_ = 0.0;     ///< automatic: what a series step goes, mean of the last kTrialAfter
-  long evaluations_before_ = 0;  ///< automatic: evaluations of the forces before the present step
+  MethodChoice choice_;           ///< automatic
+  long evaluations_before_ = 0;   ///< automatic: evaluations of the forces before the present step
   Segment segment_;
 
   bool in_flight_ = false;  ///< flight_ is the present one

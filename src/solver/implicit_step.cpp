@@ -69,18 +69,21 @@ double ImplicitStep::error(double h) const {
   return h * table.eigenvalue[0].real() * equations_.size_of(equations_.filter(equations_.filter(missed)));
 }
 
-double ImplicitStep::take(const State& start, const DriveForms& drives, double longest, double shortest,
-                          Segment& segment, SolverCounts& counts) {
+double ImplicitStep::take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
+                          SolverCounts& counts) {
   follows_ = taken_;
   taken_ = false;
   if (!follows_) last_length_ = 0.0;
   equations_.begin(start, drives, segment.contacts, follows_, counts);
-  longest = std::min(longest, longest_drive_step(drives));
+  const double longest = std::min(bounds.longest, longest_drive_step(drives));
+  const double shortest = std::max(bounds.shortest, kShortest * longest);
+  const long evaluations_before = counts.rhs_evaluations;
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
-  const bool passes_over = next_step_ == 0.0 && shortest > 0.0;
+  const bool passes_over = next_step_ == 0.0 && bounds.shortest > 0.0;
   double last_error = std::numeric_limits<double>::infinity();
   bool tried = false;
-  for (; h > std::max(shortest, kShortest * longest); tried = true, ++counts.rejected) {
+  for (; h > shortest; tried = true, ++counts.rejected) {
+    if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return 0.0;
     if (!equations_.solve(h, counts)) {
       h *= kRetry;
       continue;

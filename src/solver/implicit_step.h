@@ -3,22 +3,30 @@
 // (docs/hybrid_step.md "Implicit steps").
 #pragma once
 
+#include <limits>
+
 #include "solver/motion_series.h"
 #include "solver/stage_equations.h"
 
 namespace vibratory_alignment {
+
+/// What a step may be, and what may be spent on it.
+struct StepBounds {
+  double longest;
+  double shortest = 0.0;
+  long evaluations = std::numeric_limits<long>::max();  ///< of the forces, after which no further length is tried
+};
 
 class ImplicitStep {
  public:
   /// `tolerance`: error of the velocities per step, relative to the speed of the part.
   ImplicitStep(const System& system, double tolerance);
 
-  /// Takes a step of at most `longest` from `start` with the loaded contacts of segment.contacts and fills the
-  /// segment's series with its polynomials (powers of the time since its start). Returns its length, 0 when it would
-  /// have to be shorter than `shortest` or when even the shortest does not converge. The very first one, where it may
-  /// not be as short as it likes, is given up when it is worse than a longer one: it begins to see a ring of the base
-  /// that the longer one passes over. Counts forces and rejected steps.
-  double take(const State& start, const DriveForms& drives, double longest, double shortest, Segment& segment,
+  /// Takes a step from `start` with the loaded contacts of segment.contacts and fills the segment's series with its
+  /// polynomials (powers of the time since its start). Returns its length, 0 when none within `bounds` is found. The
+  /// very first one, where it may not be as short as it likes, is given up when it is worse than a longer one: it
+  /// begins to see a ring of the base that the longer one passes over. Counts forces and rejected steps.
+  double take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
               SolverCounts& counts);
 
   /// The last step once more, with the shorter length `h` at whose end an event lies: the state there then fulfils the

@@ -1,0 +1,116 @@
+#include "solver/method_choice.h"
+
+#include <algorithm>
+
+namespace vibratory_alignment {
+namespace {
+
+/// Costs, 1 is the time of a series step of one sliding contact: an implicit step, and one evaluation of the forces in
+/// it, also in the tanh layer; a usual such step; a series step of contacts that stick or are several.
+constexpr double kStepCost = 4.5, kEvaluationCost = 0.1, kLayerStepCost = 1.5, kLayerEvaluationCost = 0.27;
+constexpr double kImplicitCost = 6.0, kGeneralSeriesCost = 2.5;
+
+/// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
+/// may be saved for later losses: the short steps after a slip event.
+constexpr double kTrialShare = 0.15, kMostCredit = 150.0;
+
+/// Series steps in one contact before an implicit one is tried, and after a ring that had been left to the series.
+constexpr int kTrialAfter = 32, kTrialAfterRing = 6;
+
+/// Implicit steps in a ring that do not pay before it is left to the series.
+constexpr int kMostLosses = 2;
+
+/// Shortest step worth trying, as a multiple of what the series go for a cost of 1, and most evaluations of the forces
+/// in the attempt.
+constexpr double kShortestTrial = 2.0;
+constexpr long kMostTrialEvaluations = 50;
+
+/// The same at the very start, where nothing is known yet. There, if no ring can be passed over, a step of the length
+/// kFirst is tried; but only where the way to the next kink is worth the question, which takes as long as 80 series
+/// steps.
+constexpr double kShortestFirst = 24.0, kFirst = 96.0, kShortestWay = 500.0;
+
+bool any_in_layer(const ContactStates& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const ContactState& c) { return c.phase == Phase::loaded && c.slip == Slip::regularized; });
+}
+
+/// One contact that slides has a loop of its own in the series.
+double series_cost(const ContactStates& contacts) {
+  int loaded = 0;
+  for (const ContactState& c : contacts) {
+    if (c.phase != Phase::loaded) continue;
+    if (c.slip == Slip::stick) return kGeneralSeriesCost;
+    ++loaded;
+  }
+  return loaded == 1 ? 1.0 : kGeneralSeriesCost;
+}
+
+double implicit_cost(long evaluations, const ContactStates& contacts) {
+  const auto count = static_cast<double>(evaluations);
+  return any_in_layer(contacts) ? kLayerStepCost + kLayerEvaluationCost * count : kStepCost + kEvaluationCost * count;
+}
+
+}  // namespace
+
+bool MethodChoice::starts_first(double step, double longest, const ContactStates& contacts) {
+  step = std::min(step, longest);  // at rest it has no end
+  pace_ = step / series_cost(contacts);
+  implicit_ = step > 0.0 && longest >= kShortestWay * step;
+  return implicit_;
+}
+
+StepBounds MethodChoice::first_bounds(double longest) const { return {longest, kShortestFirst * pace_}; }
+
+double MethodChoice::moderate_first() const { return kFirst * pace_; }
+
+bool MethodChoice::starts_trial() {
+  // where events coincide the series go nowhere, and say nothing
+  if (implicit_ || series_steps_ < patience_ || credit_ < kTrialShare * kTrialAfter || pace_ == 0.0) return false;
+  implicit_ = true;
+  return true;
+}
+
+StepBounds MethodChoice::trial_bounds(double longest) const {
+  return {longest, kShortestTrial * pace_, kMostTrialEvaluations};
+}
+
+/// Twice the length that would pay.
+double MethodChoice::trial_length() const { return 2.0 * kImplicitCost * pace_; }
+
+void MethodChoice::earn() {
+  ++series_steps_;
+  credit_ = std::min(credit_ + kTrialShare, kMostCredit);
+}
+
+void MethodChoice::settle_series(double gone, double longest, const ContactStates& contacts) {
+  if (gone == longest) return;  // cut short by a kink or the limit, it says nothing
+  const double weight = 1.0 / std::clamp(series_steps_, 1, kTrialAfter);
+  pace_ += weight * (gone / series_cost(contacts) - pace_);
+}
+
+void MethodChoice::settle_implicit(double gone, double longest, long evaluations, const ContactStates& contacts) {
+  const double gain = gone / pace_ - implicit_cost(evaluations, contacts);
+  if (gone == longest && gain < 0.0) return;  // cut short by a kink or the limit, it has not lost
+  credit_ = std::min(credit_ + gain, kMostCredit);
+  rings_ = rings_ && gain < 0.0;
+  ++losses_;
+  const bool leaves_ring = rings_ && losses_ >= kMostLosses;
+  patience_ = leaves_ring ? kTrialAfterRing : kTrialAfter;
+  implicit_ = gone > 0.0 && credit_ > 0.0 && !leaves_ring;
+  if (leaves_ring) losses_ = 0;
+  if (!implicit_) series_steps_ = 0;
+}
+
+void MethodChoice::ring() {
+  rings_ = true;
+  losses_ = 0;
+}
+
+void MethodChoice::leave_contact() {
+  implicit_ = false;
+  series_steps_ = 0;
+  patience_ = kTrialAfter;
+}
+
+}  // namespace vibratory_alignment
