@@ -330,7 +330,7 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     implicit_.suggest(choice_.trial_length());
     bounds = choice_.trial_bounds(longest);
   }
-  evaluations_before_ = counts_.rhs_evaluations;
+  if (automatic) effort_before_ = effort();
   // to a kink or limit that is here already, when rounding left nothing on the way, the series go
   if (longest > 0.0 && (first || method_ == ContactMethod::implicit || choice_.implicit())) {
     const double step =
@@ -355,7 +355,7 @@ double EventSolver::first_implicit_step(double longest, const DriveForms& drives
   const StepBounds bounds = choice_.first_bounds(longest);
   const double passing = implicit_.take(state_, drives, bounds, segment_, counts_);
   if (passing > 0.0) return passing;
-  evaluations_before_ = counts_.rhs_evaluations;  // what the question has cost says nothing about implicit steps
+  effort_before_ = effort();  // what the question has cost says nothing about implicit steps
   implicit_.suggest(choice_.moderate_first());
   const double moderate = implicit_.take(state_, drives, bounds, segment_, counts_);
   if (moderate == 0.0) choice_.drop();
@@ -370,13 +370,20 @@ bool EventSolver::shorten_implicit_step(double step) {
   return taken;
 }
 
+/// Evaluations and factorizations until now.
+StepEffort EventSolver::effort() const { return {counts_.rhs_evaluations, implicit_.factorizations()}; }
+
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.
 void EventSolver::settle(double gone, double longest) {
-  if (choice_.implicit())
-    choice_.settle_implicit(gone, longest, counts_.rhs_evaluations - evaluations_before_, segment_.contacts);
-  else
+  if (!choice_.implicit()) {
     choice_.settle_series(gone, longest, segment_.contacts);
+    return;
+  }
+  const StepEffort now = effort();
+  choice_.settle_implicit(
+      gone, longest, {now.evaluations - effort_before_.evaluations, now.factorizations - effort_before_.factorizations},
+      segment_.contacts);
 }
 
 const Segment& EventSolver::advance(double limit) {

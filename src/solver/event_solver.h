@@ -35,6 +35,7 @@ class EventSolver final : public Solver {
   double contact_step(double longest, const DriveForms& drives);
   double first_implicit_step(double longest, const DriveForms& drives);
   bool shorten_implicit_step(double step);
+  StepEffort effort() const;
   void settle(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
@@ -67,7 +68,7 @@ class EventSolver final : public Solver {
   bool implicit_now_ = false;     ///< the current segment is an implicit step
   double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
   MethodChoice choice_;           ///< automatic
-  long evaluations_before_ = 0;   ///< automatic: evaluations of the forces before the present step
+  StepEffort effort_before_;      ///< automatic: until the present step
   Segment segment_;
 
   bool in_flight_ = false;  ///< flight_ is the present one

@@ -5,9 +5,14 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Costs, 1 is the time of a series step of one sliding contact: an implicit step, and one evaluation of the forces in
-/// it, also in the tanh layer; a usual such step; a series step of contacts that stick or are several.
-constexpr double kStepCost = 4.5, kEvaluationCost = 0.1, kLayerStepCost = 1.5, kLayerEvaluationCost = 0.27;
+/// Costs of an implicit step: its own, of one evaluation of the forces in it and of one factorization. 1 is the time of
+/// a series step of one sliding contact.
+struct Cost {
+  double step, evaluation, factorization;
+};
+constexpr Cost kCost{3.9, 0.05, 4.5}, kLayerCost{1.5, 0.27, 3.0};
+
+/// A usual implicit step; a series step of contacts that stick or are several.
 constexpr double kImplicitCost = 6.0, kGeneralSeriesCost = 2.5;
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
@@ -46,9 +51,10 @@ double series_cost(const ContactStates& contacts) {
   return loaded == 1 ? 1.0 : kGeneralSeriesCost;
 }
 
-double implicit_cost(long evaluations, const ContactStates& contacts) {
-  const auto count = static_cast<double>(evaluations);
-  return any_in_layer(contacts) ? kLayerStepCost + kLayerEvaluationCost * count : kStepCost + kEvaluationCost * count;
+double implicit_cost(const StepEffort& effort, const ContactStates& contacts) {
+  const Cost& cost = any_in_layer(contacts) ? kLayerCost : kCost;
+  return cost.step + cost.evaluation * static_cast<double>(effort.evaluations) +
+         cost.factorization * static_cast<double>(effort.factorizations);
 }
 
 }  // namespace
@@ -89,8 +95,9 @@ void MethodChoice::settle_series(double gone, double longest, const ContactState
   pace_ += weight * (gone / series_cost(contacts) - pace_);
 }
 
-void MethodChoice::settle_implicit(double gone, double longest, long evaluations, const ContactStates& contacts) {
-  const double gain = gone / pace_ - implicit_cost(evaluations, contacts);
+void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort,
+                                   const ContactStates& contacts) {
+  const double gain = gone / pace_ - implicit_cost(effort, contacts);
   if (gone == longest && gain < 0.0) return;  // cut short by a kink or the limit, it has not lost
   credit_ = std::min(credit_ + gain, kMostCredit);
   rings_ = rings_ && gain < 0.0;

@@ -10,6 +10,12 @@ namespace vibratory_alignment {
 /// How contact is stepped: power series, implicit steps, or whichever goes further for its cost.
 enum class ContactMethod { series, implicit, automatic };
 
+/// What an implicit step has taken, also in attempts that were given up.
+struct StepEffort {
+  long evaluations = 0;  ///< of the forces
+  long factorizations = 0;
+};
+
 class MethodChoice {
  public:
   MethodChoice() { leave_contact(); }
@@ -41,8 +47,8 @@ class MethodChoice {
   /// The series have gone `gone` of at most `longest` in a step.
   void settle_series(double gone, double longest, const ContactStates& contacts);
 
-  /// An implicit step with so many evaluations of the forces has gone `gone` of at most `longest`; 0: was given up.
-  void settle_implicit(double gone, double longest, long evaluations, const ContactStates& contacts);
+  /// An implicit step has gone `gone` of at most `longest`; 0: was given up.
+  void settle_implicit(double gone, double longest, const StepEffort& effort, const ContactStates& contacts);
 
   /// The normal forces jump: the base rings.
   void ring();

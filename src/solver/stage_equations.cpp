@@ -90,6 +90,7 @@ void StageEquations::keep_guess(double h) {
 
 /// The matrix of Newton's method with the Jacobian of every stage where it is now.
 void StageEquations::linearise_stages(double h) {
+  ++factorizations_;
   const Collocation& table = collocation();
   Eigen::Matrix<double, kUnknowns, kUnknowns> matrix;
   for (std::size_t i = 0; i < kStages; ++i) {

@@ -25,6 +25,10 @@ class StageEquations {
   /// Solves a step of length h; false when that does not converge.
   bool solve(double h, SolverCounts& counts);
 
+  /// Factorizations of the whole matrix of Newton's method until now: each takes as long as some 100 evaluations of
+  /// the forces.
+  long factorizations() const { return factorizations_; }
+
   /// The solution.
   const State& start() const { return start_; }
   const Forces& start_forces() const { return start_forces_; }
@@ -73,6 +77,7 @@ class StageEquations {
   Stages known_{};
   double known_length_ = 0.0, known_ago_ = 0.0;
 
+  long factorizations_ = 0;
   int coupled_steps_ = 0;  ///< steps to come with the Jacobian of every stage
   int failures_ = 0;       ///< of the modes since `start_`
   StageModes modes_;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kFar = 1e9;
 
-/// An implicit step costs 4.5 + 0.1 an evaluation: 15 of them make it 6.
-constexpr long kEvaluations = 15;
+/// An implicit step costs 3.9 + 0.05 an evaluation + 4.5 a factorization: 6.
+constexpr StepEffort kEffort{42, 0};
 
 ContactStates sliding() {
   ContactStates contacts{};
@@ -39,7 +39,7 @@ bool tries_after(int steps, MethodChoice& choice) {
 MethodChoice rich() {
   MethodChoice choice;
   EXPECT_TRUE(tries_after(99, choice));
-  choice.settle_implicit(56.0, kFar, kEvaluations, sliding());
+  choice.settle_implicit(56.0, kFar, kEffort, sliding());
   EXPECT_TRUE(choice.implicit());
   return choice;
 }
@@ -47,7 +47,7 @@ MethodChoice rich() {
 /// Implicit steps that go 1 each until they are given up.
 int steps_until_dropped(MethodChoice& choice) {
   int steps = 0;
-  for (; choice.implicit(); ++steps) choice.settle_implicit(1.0, kFar, kEvaluations, sliding());
+  for (; choice.implicit(); ++steps) choice.settle_implicit(1.0, kFar, kEffort, sliding());
   return steps;
 }
 
@@ -60,7 +60,7 @@ TEST(MethodChoice, the_first_trial_has_to_be_earned) {
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   MethodChoice choice;
   ASSERT_TRUE(tries_after(99, choice));
-  choice.settle_implicit(0.0, kFar, 50, sliding());  // 4.85 - 9.5
+  choice.settle_implicit(0.0, kFar, {22, 1}, sliding());  // 4.85 - 9.5
   EXPECT_FALSE(choice.implicit());
   EXPECT_TRUE(tries_after(63, choice));  // (4.8 + 4.65)/0.15
 }
@@ -72,15 +72,15 @@ TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
 
 TEST(MethodChoice, gains_are_saved_up_to_a_bound) {
   MethodChoice choice = rich();
-  for (int i = 0; i < 100; ++i) choice.settle_implicit(56.0, kFar, kEvaluations, sliding());
+  for (int i = 0; i < 100; ++i) choice.settle_implicit(56.0, kFar, kEffort, sliding());
   EXPECT_EQ(steps_until_dropped(choice), 30);  // 150/5
 }
 
 TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
   MethodChoice loser = rich(), winner = rich();
-  for (int i = 0; i < 100; ++i) loser.settle_implicit(1.0, 1.0, kEvaluations, sliding());
+  for (int i = 0; i < 100; ++i) loser.settle_implicit(1.0, 1.0, kEffort, sliding());
   EXPECT_EQ(steps_until_dropped(loser), 11);
-  winner.settle_implicit(26.0, 26.0, kEvaluations, sliding());
+  winner.settle_implicit(26.0, 26.0, kEffort, sliding());
   EXPECT_EQ(steps_until_dropped(winner), 15);
 }
 
@@ -137,24 +137,24 @@ TEST(MethodChoice, a_trial_in_a_ring_that_is_given_up_is_not_repeated_so_soon) {
   choice.ring();
   steps_until_dropped(choice);
   ASSERT_TRUE(tries_after(6, choice));
-  choice.settle_implicit(0.0, kFar, kEvaluations, sliding());
+  choice.settle_implicit(0.0, kFar, kEffort, sliding());
   EXPECT_FALSE(choice.implicit());
   EXPECT_TRUE(tries_after(32, choice));
 }
 
-TEST(MethodChoice, steps_in_the_tanh_layer_cost_more_for_their_evaluations) {
+TEST(MethodChoice, steps_in_the_tanh_layer_have_costs_of_their_own) {
   ContactStates layer = sliding();
   layer[0].slip = Slip::regularized;
   MethodChoice choice = rich();
-  for (int i = 0; i < 100; ++i) choice.settle_implicit(1.5 + 0.27 * 40 + 0.01, kFar, 40, layer);
+  for (int i = 0; i < 100; ++i) choice.settle_implicit(1.5 + 0.27 * 40 + 3.0 + 0.01, kFar, {40, 1}, layer);
   EXPECT_EQ(steps_until_dropped(choice), 12);  // 55.85/5
 }
 
 TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
   MethodChoice choice = rich();
   choice.ring();
-  choice.settle_implicit(1.0, kFar, kEvaluations, sliding());
-  choice.settle_implicit(6.0, kFar, kEvaluations, sliding());
+  choice.settle_implicit(1.0, kFar, kEffort, sliding());
+  choice.settle_implicit(6.0, kFar, kEffort, sliding());
   EXPECT_EQ(steps_until_dropped(choice), 10);  // 49.85/5
 }
 
