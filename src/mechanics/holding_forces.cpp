@@ -31,21 +31,6 @@ constexpr int kPasses = 2;
 /// Rounding of V' relative to the sizes of its terms.
 constexpr double kSlipRateRounding = 1e-14;
 
-/// Rounding of what is left of a motion, relative to what was taken out of it.
-constexpr double kRestRounding = 1e-15;
-
-/// Makes of a change what it leaves of a motion. Where all is held, that is rest: a part that moves by rounding would
-/// have the time scale of rounding.
-void leave(const HoldingForces::Answer& motion, HoldingForces::Answer& change) {
-  const auto left_of = [](double rate, double changed) {
-    const double left = rate + changed;
-    return std::abs(left) <= kRestRounding * std::abs(rate) ? 0.0 : left;
-  };
-  change.x = left_of(motion.x, change.x);
-  change.y = left_of(motion.y, change.y);
-  change.phi = left_of(motion.phi, change.phi);
-}
-
 }  // namespace
 
 /// Two steps, for the rank is one of J, the size that of J M^-1/2: J = Q V with orthonormal columns of Q,
@@ -126,6 +111,8 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   holds_nothing_ = largest <= kNoMobility * typical_mobility(system);
   delicate_ = most > kUnequal * least;
   regular_ = !holds_nothing_;
+  single_ = {mobility(0), inverse_inertia_[0] * rows[0].x, inverse_inertia_[1] * rows[0].y,
+             inverse_inertia_[2] * rows[0].moment};
   if (count == 1 || holds_nothing_) return;
   safe_ = factorize(kNearlySame);
   full_ = factorize(kSame);
@@ -162,10 +149,10 @@ HoldingForces::Answer HoldingForces::hold(const Vector& rhs, const Vector& noise
   if (count_ == 0 || holds_nothing_) return {};
   if (count_ == 1) {
     Answer answer;
-    const double force = answer.force[0] = rhs[0] / mobility(0);
-    answer.x = inverse_inertia_[0] * rows_[0].x * force;
-    answer.y = inverse_inertia_[1] * rows_[0].y * force;
-    answer.phi = inverse_inertia_[2] * rows_[0].moment * force;
+    const double force = answer.force[0] = rhs[0] / single_.mobility;
+    answer.x = single_.x * force;
+    answer.y = single_.y * force;
+    answer.phi = single_.phi * force;
     return answer;
   }
   const Answer answer = hold_with(safe_, rhs);
@@ -188,18 +175,17 @@ HoldingForces::Answer HoldingForces::hold_motion_with(const Factor& factor, cons
     if (scale_[a] > 0.0) asked[a] = rate[a] / scale_[a];
   for (int i = 0; i < count_; ++i) asked += factor.inverse.col(i) * own_rates[i];
   for (int i = 0; i < count_; ++i) held.force[i] = -factor.inverse.col(i).dot(asked);
-  if (!holds_all) leave(motion, held);
+  if (holds_all) return held;
+  held.x = left_of(motion.x, held.x);
+  held.y = left_of(motion.y, held.y);
+  held.phi = left_of(motion.phi, held.phi);
   return held;
 }
 
 HoldingForces::Answer HoldingForces::hold_motion(const Answer& motion, const Vector& own_rates,
                                                  const Vector& noise) const {
   if (count_ == 0 || holds_nothing_) return motion;
-  if (count_ == 1) {
-    Answer held = hold({-left_over(0, {}, motion) - own_rates[0]}, noise);
-    leave(motion, held);
-    return held;
-  }
+  if (count_ == 1) return hold_motion_of_one(motion, own_rates[0]);
   const Answer held = hold_motion_with(safe_, motion, own_rates);
   if (safe_.rank == full_.rank) return held;
   bool exact = true;
@@ -256,7 +242,7 @@ HoldingForces::Vector HoldingForces::spread(const Vector& noise) const {
   Vector error{};
   if (count_ == 0 || holds_nothing_) return error;
   if (count_ == 1) {
-    error[0] = noise[0] / mobility(0);
+    error[0] = noise[0] / single_.mobility;
     return error;
   }
   for (int i = 0; i < count_; ++i)

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <Eigen/Core>
 
@@ -51,6 +52,17 @@ class HoldingForces {
   /// the slow axes drown beside the fast ones.
   Answer hold_motion(const Answer& motion, const Vector& own_rates, const Vector& noise) const;
 
+  /// The same for a single contact that can be held: regular().
+  Answer hold_motion_of_one(const Answer& motion, double own_rate) const {
+    Answer held;
+    const double rate = rows_[0].x * motion.x + rows_[0].y * motion.y + rows_[0].moment * motion.phi;
+    const double force = held.force[0] = (-rate - own_rate) / single_.mobility;
+    held.x = left_of(motion.x, single_.x * force);
+    held.y = left_of(motion.y, single_.y * force);
+    held.phi = left_of(motion.phi, single_.phi * force);
+    return held;
+  }
+
   /// The same to rounding of V': taken out once more where that is delicate.
   Answer hold_motion(const Answer& motion, const Vector& own_rates) const;
 
@@ -77,12 +89,23 @@ class HoldingForces {
   Answer hold_motion_with(const Factor& factor, const Answer& motion, const Vector& own_rates) const;
   double mobility(int i) const;
 
+  /// What a change leaves of the rate of an axis. Where all is held, that is rest: a part that moves by rounding would
+  /// have the time scale of rounding.
+  static double left_of(double rate, double change) {
+    constexpr double kRounding = 1e-15;  // of what is left, relative to what was taken out
+    const double left = rate + change;
+    return std::abs(left) <= kRounding * std::abs(rate) ? 0.0 : left;
+  }
+
   int count_ = 0;
   bool regular_ = true, delicate_ = false, holds_nothing_ = false;
   std::array<double, 3> inverse_inertia_{};
   double reach_ = 1.0;             ///< what levers are measured by
   std::array<double, 3> scale_{};  ///< M^-1/2 of x, y and phi times the reach
   Rows rows_{};
+  struct {
+    double mobility = 0.0, x = 0.0, y = 0.0, phi = 0.0;  ///< G, and how T = 1 changes the rates of the axes
+  } single_;                                             ///< of a single contact
   Factor safe_, full_;  ///< without the nearly common motions, and with all that is not rounding
 };
 

@@ -6,13 +6,13 @@ namespace vibratory_alignment {
 namespace {
 
 /// Costs of an implicit step: its own, of one evaluation of the forces in it and of one factorization. 1 is the time of
-/// a series step of one sliding contact.
+/// a series step of one contact.
 struct Cost {
   double step, evaluation, factorization;
 };
 constexpr Cost kCost{3.9, 0.05, 4.5}, kLayerCost{1.5, 0.27, 3.0};
 
-/// A usual implicit step; a series step of contacts that stick or are several.
+/// A usual implicit step; a series step of several contacts.
 constexpr double kImplicitCost = 6.0, kGeneralSeriesCost = 2.5;
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
@@ -40,14 +40,10 @@ bool any_in_layer(const ContactStates& contacts) {
                      [](const ContactState& c) { return c.phase == Phase::loaded && c.slip == Slip::regularized; });
 }
 
-/// One contact that slides has a loop of its own in the series.
+/// A single contact has a loop of its own in the series.
 double series_cost(const ContactStates& contacts) {
-  int loaded = 0;
-  for (const ContactState& c : contacts) {
-    if (c.phase != Phase::loaded) continue;
-    if (c.slip == Slip::stick) return kGeneralSeriesCost;
-    ++loaded;
-  }
+  const auto loaded =
+      std::count_if(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
   return loaded == 1 ? 1.0 : kGeneralSeriesCost;
 }
 

@@ -273,10 +273,7 @@ MotionSeries::Load MotionSeries::contact_load(int k, const Segment& segment) con
 void MotionSeries::expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment) {
   this->start(start, drives, order, segment);
   set_up_contacts(segment);
-  if (segment.loaded_count == 1 && sticking_count_ == 0 && !contacts_[0].turning) {
-    expand_single(segment);
-    return;
-  }
+  if (segment.loaded_count == 1 && !contacts_[0].turning && expand_single(segment)) return end_sticking(segment);
   for (int i = 0; i < segment.loaded_count; ++i) {
     const Contact& contact = contacts_[i];
     point_term(contact.point, 0, segment);
@@ -295,11 +292,15 @@ void MotionSeries::expand_contact(const State& start, const DriveForms& drives, 
     accelerate(k, contact_load(k, segment), segment);
     if (sticking_count_ > 0) hold_sticking(k, segment);
   }
-  // the highest power of what sticks is not determined yet at `order`; V itself is zero by construction
+  end_sticking(segment);
+}
+
+/// The highest power of what sticks is not determined yet at the segment's order; V itself is zero by construction.
+void MotionSeries::end_sticking(Segment& segment) const {
   for (int m = 0; m < sticking_count_; ++m) {
     ContactSeries& series = segment.loaded[sticking_[m]];
-    series.tangential_force[order] = 0.0;
-    std::fill(series.slip_velocity.begin(), series.slip_velocity.begin() + order + 1, 0.0);
+    series.tangential_force[segment.order] = 0.0;
+    std::fill(series.slip_velocity.begin(), series.slip_velocity.begin() + segment.order + 1, 0.0);
   }
 }
 

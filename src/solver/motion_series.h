@@ -104,6 +104,7 @@ class MotionSeries {
   void tanh_term(Contact& contact, int k, ContactSeries& series) const;
   void hold_sticking(int k, Segment& segment);
   void set_up_holding();
+  void end_sticking(Segment& segment) const;
   void negated_slip_rates(int k, Segment& segment, HoldingForces::Vector& rates);
   bool rounding_shows(const HoldingForces::Answer& free, const HoldingForces::Answer& held,
                       const Segment& segment) const;
@@ -116,11 +117,14 @@ class MotionSeries {
   void direction_terms(Contact& contact, int k) const;
   Load contact_load(int k, const Segment& segment) const;
   void accelerate(int k, const Load& load, Segment& segment) const;
-  void expand_single(Segment& segment);
-  void expand_single_wide(Segment& segment);
-  void expand_any_single(Segment& segment);
-  template <bool kEdge, bool kTurns, bool kTanh>
-  void expand_single_of(Segment& segment);
+  enum class Law { slides, layer, sticks };  ///< of a single contact
+  bool expand_single(Segment& segment);
+  bool expand_single_wide(Segment& segment);
+  bool expand_any_single(Segment& segment);
+  template <bool kEdge, bool kTurns>
+  bool expand_single_by_law(Segment& segment);
+  template <bool kEdge, bool kTurns, Law kLaw>
+  bool expand_single_of(Segment& segment);
 
   const System& system_;
   int order_ = 0;

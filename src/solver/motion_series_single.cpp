@@ -1,4 +1,4 @@
-// Part of MotionSeries: the most frequent case, one contact that slides, in a loop of its own.
+// Part of MotionSeries: the most frequent case, a single contact, in a loop of its own.
 #include <cmath>
 
 #include "mechanics/quad.h"
@@ -7,29 +7,32 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Powers as factors of products, each number as often as it is needed. The product of power k sums left j with
-/// right k - j.
+/// Powers as factors of products, each number as often as it is needed. A sum pairs left j with right k - j.
 struct LeftFactors {
-  Quad direction;  ///< c, s, c, s
-  Quad moment;     ///< tanh law: c, s, and the moments per unit of N and of T
+  Quad next;       ///< c, s, c, s of the next power
+  Quad turn_push;  ///< c, s of the next power, c, s
+  Quad moment;     ///< where T is a series of its own: c, s, and the moments per unit of N and of T
   Quad layer;      ///< tanh law: tanh, tanh, 1 - tanh^2, -
 };
 struct RightFactors {
-  Quad turn_push;  ///< omega, omega, N, N
   Quad centre;     ///< x, x, y, y of the next power
-  Quad moment;     ///< tanh law: T, T, N, T
+  Quad turn_push;  ///< omega, omega, N, N
+  Quad moment;     ///< where T is a series of its own: T, T, N, T
   Quad layer;      ///< tanh law: tanh, N, V' of the power before, -
 };
 
 }  // namespace
 
-/// The whole expansion for one contact that slides (or whose friction is regularised) on a base whose stiffness does
-/// not turn: the same recurrences, in one loop. All products of series whose factors are known when a power begins are
-/// summed together; what a power itself finds is added as its last term, by constant factors: the way from one velocity
-/// to the next, on which the powers wait for one another, is kept short.
-template <bool kEdge, bool kTurns, bool kTanh>
-VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment) {
-  const Contact& contact = contacts_[0];
+/// The whole expansion for one contact on a base whose stiffness does not turn: the same recurrences, in one loop. All
+/// products of series whose factors are known when the forces of a power are asked for are summed together, for these
+/// forces and for the direction and the centre of the next but one power; what a power itself finds is added as its
+/// last term, by constant factors: the way from one velocity to the next, on which the powers wait for one another, is
+/// kept short. T of what sticks takes V' out: of what the accelerations without it make of V', and of what turning
+/// adds. False, with nothing but the start expanded, where V' has to be taken out twice or nothing can be held.
+template <bool kEdge, bool kTurns, MotionSeries::Law kLaw>
+VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment) {
+  constexpr bool kTanh = kLaw == Law::layer, kSticks = kLaw == Law::sticks, kOwnT = kTanh || kSticks;
+  Contact& contact = contacts_[0];
   ContactSeries& series = segment.loaded[0];
   PairSeries& point = points_[contact.point];
   const int order = segment.order;
@@ -38,7 +41,7 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment)
                b0 = system_.base_distance;
   const double depth_1 = f.sign * f.n1, depth_2 = f.sign * f.n2, slip_1 = -f.sign * f.t1(), slip_2 = -f.sign * f.t2();
   // forces per unit of N (sliding friction included) and of T, in the axes of the frame
-  const double push_1 = kTanh ? f.n1 : contact.force1, push_2 = kTanh ? f.n2 : contact.force2;
+  const double push_1 = kOwnT ? f.n1 : contact.force1, push_2 = kOwnT ? f.n2 : contact.force2;
   const double drag_1 = f.t1(), drag_2 = f.t2();
   const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
                fast_phi = system_.phi.inverse_inertia, slope = kTanh ? 1.0 / system_.regularization : 0.0;
@@ -55,62 +58,72 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment)
                push_y = kEdge ? push_1 * s_0 + push_2 * c_0 : push_2,
                drag_x = kEdge ? drag_1 * c_0 - drag_2 * s_0 : drag_1,
                drag_y = kEdge ? drag_1 * s_0 + drag_2 * c_0 : drag_2;
+  // sums for the direction and the centre of the next power, and for the forces
+  Quad turn_push{}, centre{};
 
-  for (int n = 0;; ++n) {
-    // direction, point and depth of power n = k + 1, from all sums over what the powers up to k know
-    const int k = n - 1;
-    Quad turn_push{}, centre{}, moments{}, layer{};
-    double moment = 0.0;
-    double c = c_0, s = s_0;
-    if (k >= 0) {
-      if (kEdge) push_moment[k] = push_2 * point[k][0] - push_1 * point[k][1];
-      const double drag_moment = kEdge && kTanh ? drag_2 * point[k][0] - drag_1 * point[k][1] : 0.0;
-      if (k == 0) drag_moment_0 = drag_moment;
-      if (kTurns) {
-        const double ck = segment.cos_phi[k], sk = segment.sin_phi[k];
-        left[k].direction = Quad{ck, sk, ck, sk};
-        if (kTanh) left[k].moment = Quad{ck, sk, kEdge ? push_moment[k] : 0.0, drag_moment};
-      }
-      if (kTanh) left[k].layer = Quad{};
-      for (int j = 1; j <= k; ++j) {
-        const LeftFactors& a = left[j];
-        const RightFactors& b = right[k - j];
-        if (kTurns) {
-          turn_push += a.direction * b.turn_push;
-          if (kEdge) centre += a.direction * b.centre;
-          if (kTanh) moments += a.moment * b.moment;
-          if (kEdge && !kTanh) moment += push_moment[j] * b.turn_push[2];
-        }
-        if (kTanh) layer += a.layer * b.layer;
-      }
-      const double omega = segment.omega[k], inverse = kInverse[n];
-      c = kTurns ? -(inverse * turn_push[1] + (inverse * s_0) * omega) : 0.0;
-      s = kTurns ? inverse * turn_push[0] + (inverse * c_0) * omega : 0.0;
-    }
+  // centre in body axes and point of an edge, point of a corner, of a power > 0 with these last terms
+  const auto centre_of = [&](double c, double s, double x, double y) {
+    const double along_c = centre[0] + c_0 * x + c * x_0, along_s = centre[1] + s_0 * x + s * x_0,
+                 across_c = centre[2] + c_0 * y + c * y_0, across_s = centre[3] + s_0 * y + s * y_0;
+    return Pair{along_c + across_s, across_c - along_s};
+  };
+  const auto edge_at = [&](double c, double s, const Pair& of) { return Pair{l * c - of[0], -l * s - of[1]}; };
+  const auto corner_at = [&](double c, double s, double x, double y) {
+    return Pair{x + beta * c + b0 * s, y + beta * s - b0 * c};
+  };
+
+  direction_[0] = Pair{c_0, s_0};
+  if (kEdge) centre_[0] = Pair{c_0 * x_0 + s_0 * y_0, c_0 * y_0 - s_0 * x_0};
+  point[0] = kEdge ? edge_at(c_0, s_0, centre_[0]) : corner_at(c_0, s_0, x_0, y_0);
+  series.depth[0] = depth_1 * point[0][0] + depth_2 * point[0][1] + f.offset;
+  for (int k = 0;; ++k) {
+    // direction, point and depth of the next power
+    const int n = k + 1;
+    const double omega = segment.omega[k], inverse = kInverse[n], next_inverse = kInverse[n + 1];
+    const double c = kTurns ? -(inverse * turn_push[1] + (inverse * s_0) * omega) : 0.0;
+    const double s = kTurns ? inverse * turn_push[0] + (inverse * c_0) * omega : 0.0;
     direction_[n] = Pair{c, s};
     segment.cos_phi[n] = c;
     segment.sin_phi[n] = s;
-    const double xn = segment.x[n], yn = segment.y[n];
-    if (kEdge) {
-      const double along_c = centre[0] + c_0 * xn + (n > 0 ? c * x_0 : 0.0),
-                   along_s = centre[1] + s_0 * xn + (n > 0 ? s * x_0 : 0.0),
-                   across_c = centre[2] + c_0 * yn + (n > 0 ? c * y_0 : 0.0),
-                   across_s = centre[3] + s_0 * yn + (n > 0 ? s * y_0 : 0.0);
-      centre_[n] = Pair{along_c + across_s, across_c - along_s};
-      point[n] = Pair{l * c - centre_[n][0], -l * s - centre_[n][1]};
-    } else {
-      point[n] = Pair{xn + beta * c + b0 * s, yn + beta * s - b0 * c};
-    }
+    if (kEdge) centre_[n] = centre_of(c, s, segment.x[n], segment.y[n]);
+    point[n] = kEdge ? edge_at(c, s, centre_[n]) : corner_at(c, s, segment.x[n], segment.y[n]);
     series.depth[n] = depth_1 * point[n][0] + depth_2 * point[n][1];
-    if (k < 0) {
-      series.depth[0] += f.offset;
-      continue;
+
+    // sums over what the powers before know
+    if (kEdge) push_moment[k] = push_2 * point[k][0] - push_1 * point[k][1];
+    const double drag_moment = kEdge && kOwnT ? drag_2 * point[k][0] - drag_1 * point[k][1] : 0.0;
+    if (k == 0) drag_moment_0 = kEdge ? drag_moment : drag_c_arm * c_0 + drag_s_arm * s_0;
+    turn_push = centre = Quad{};
+    Quad moments{}, layer{};
+    double moment = 0.0;
+    if (kTurns) {
+      const double ck = segment.cos_phi[k], sk = segment.sin_phi[k];
+      left[k].next = Quad{c, s, c, s};
+      left[k].turn_push = Quad{c, s, ck, sk};
+      if (kOwnT) left[k].moment = Quad{ck, sk, kEdge ? push_moment[k] : 0.0, drag_moment};
+      if (kEdge) right[k].centre = Quad{segment.x[n], segment.x[n], segment.y[n], segment.y[n]};
+    }
+    if (kTanh) left[k].layer = Quad{};
+    for (int j = 1; j <= k; ++j) {
+      const LeftFactors& a = left[j];
+      const RightFactors& b = right[k - j];
+      if (kTurns) {
+        turn_push += a.turn_push * b.turn_push;
+        if (kEdge) centre += a.next * b.centre;
+        if (kOwnT) moments += a.moment * b.moment;
+        if (kEdge && !kOwnT) moment += push_moment[j] * b.turn_push[2];
+      }
+      if (kTanh) layer += a.layer * b.layer;
+    }
+    if (kTurns) {
+      turn_push += left[0].turn_push * Quad{omega, omega, 0.0, 0.0};
+      if (kEdge) centre += left[0].next * right[k].centre;
     }
 
     // N, V and T of power k
     const double force_n = contact.stiffness * series.depth[k] + (contact.damping * n) * series.depth[n];
     const double v = (n * slip_1) * point[n][0] + (n * slip_2) * point[n][1];
-    double force_t = contact.ratio * force_n;
+    double force_t = kSticks ? 0.0 : contact.ratio * force_n;
     if (kTanh && k == 0) {
       tanh_0 = std::tanh(v * slope);
       const double sech2_0 = 1.0 - tanh_0 * tanh_0;
@@ -139,7 +152,7 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment)
       force_x += push_1 * turn_push[2] - push_2 * turn_push[3];
       force_y += push_1 * turn_push[3] + push_2 * turn_push[2];
     }
-    if (kEdge && kTurns && kTanh) {
+    if (kEdge && kTurns && kOwnT) {
       force_x += drag_1 * moments[0] - drag_2 * moments[1];
       force_y += drag_1 * moments[1] + drag_2 * moments[0];
     }
@@ -149,57 +162,80 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_single_of(Segment& segment)
       force_x += drag_x * force_t;
       force_y += drag_y * force_t;
     }
-
-    // velocity of power n, position of power n + 1
-    const double inverse = kInverse[n], next_inverse = kInverse[n + 1];
-    segment.vx[n] = (fast_x * inverse) * force_x;
-    segment.vy[n] = (fast_y * inverse) * force_y;
-    segment.x[n + 1] = segment.vx[n] * next_inverse;
-    segment.y[n + 1] = segment.vy[n] * next_inverse;
+    double turn = 0.0;
     if (kTurns) {
       const double dphi = k == 0 ? segment.phi[0] - system_.phi.anchor : segment.phi[k];
-      const double omega = segment.omega[k];
-      double turn = segment.drive_phi[k] - system_.phi.damping * omega - system_.phi.stiffness * dphi;
+      turn = segment.drive_phi[k] - system_.phi.damping * omega - system_.phi.stiffness * dphi;
       if (kEdge) {
         turn += moment + moments[2] + push_moment[0] * force_n;
-        if (kTanh) turn += moments[3] + drag_moment_0 * force_t;
+        if (kOwnT) turn += moments[3];
       } else {
         turn += push_c_arm * (turn_push[2] + c_0 * force_n) + push_s_arm * (turn_push[3] + s_0 * force_n);
-        if (kTanh) turn += drag_c_arm * (moments[0] + c_0 * force_t) + drag_s_arm * (moments[1] + s_0 * force_t);
+        if (kOwnT) turn += drag_c_arm * moments[0] + drag_s_arm * moments[1];
       }
-      segment.omega[n] = (fast_phi * inverse) * turn;
-      segment.phi[n + 1] = segment.omega[n] * next_inverse;
-      right[k].turn_push = Quad{omega, omega, force_n, force_n};
-      if (kEdge) right[k].centre = Quad{segment.x[n], segment.x[n], segment.y[n], segment.y[n]};
-      if (kTanh) right[k].moment = Quad{force_t, force_t, force_n, force_t};
-    } else {
-      segment.omega[n] = segment.phi[n + 1] = 0.0;
+      if (kTanh) turn += drag_moment_0 * force_t;
     }
+
+    // velocity of power n: with the T that leaves nothing of V'
+    if (kSticks) {
+      if (k == 0) {
+        contact.drag[0] = Pair{drag_x, drag_y};
+        contact.drag_moment[0] = drag_moment_0;
+        set_up_holding();
+      }
+      const double own_c = -next_inverse * turn_push[1], own_s = next_inverse * turn_push[0];
+      const Pair own =
+          kEdge ? edge_at(own_c, own_s, centre_of(own_c, own_s, 0.0, 0.0)) : corner_at(own_c, own_s, 0.0, 0.0);
+      const double own_rate = (n * (n + 1)) * (slip_1 * own[0] + slip_2 * own[1]);
+      const HoldingForces::Answer free{{}, fast_x * force_x, fast_y * force_y, fast_phi * turn};
+      const HoldingForces::Answer held = holding_.hold_motion_of_one(free, own_rate);
+      if (k == 0 && (!holding_.regular() || rounding_shows(free, held, segment))) return false;
+      series.tangential_force[k] = force_t = held.force[0];
+      segment.vx[n] = inverse * held.x;
+      segment.vy[n] = inverse * held.y;
+      segment.omega[n] = inverse * held.phi;
+    } else {
+      segment.vx[n] = (fast_x * inverse) * force_x;
+      segment.vy[n] = (fast_y * inverse) * force_y;
+      segment.omega[n] = (fast_phi * inverse) * turn;
+    }
+    // position of power n + 1
+    segment.x[n + 1] = segment.vx[n] * next_inverse;
+    segment.y[n + 1] = segment.vy[n] * next_inverse;
+    segment.phi[n + 1] = segment.omega[n] * next_inverse;
+    if (kTurns) right[k].turn_push = Quad{omega, omega, force_n, force_n};
+    if (kTurns && kOwnT) right[k].moment = Quad{force_t, force_t, force_n, force_t};
   }
   known_trig_ = order + 1;
   known_point_[contact.point] = order + 1;
   if (kEdge) known_centre_ = order + 1;
+  return true;
 }
 
-VIBRATORY_ALIGNMENT_INLINE void MotionSeries::expand_any_single(Segment& segment) {
-  const bool edge = is_edge(contacts_[0].site), turns = system_.phi.moves, tanh = contacts_[0].separate_t;
-  if (edge)
-    turns ? (tanh ? expand_single_of<true, true, true>(segment) : expand_single_of<true, true, false>(segment))
-          : (tanh ? expand_single_of<true, false, true>(segment) : expand_single_of<true, false, false>(segment));
-  else
-    turns ? (tanh ? expand_single_of<false, true, true>(segment) : expand_single_of<false, true, false>(segment))
-          : (tanh ? expand_single_of<false, false, true>(segment) : expand_single_of<false, false, false>(segment));
+template <bool kEdge, bool kTurns>
+VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_by_law(Segment& segment) {
+  if (contacts_[0].slip == Slip::stick) return expand_single_of<kEdge, kTurns, Law::sticks>(segment);
+  if (contacts_[0].slip == Slip::regularized) return expand_single_of<kEdge, kTurns, Law::layer>(segment);
+  return expand_single_of<kEdge, kTurns, Law::slides>(segment);
+}
+
+VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_any_single(Segment& segment) {
+  if (is_edge(contacts_[0].site))
+    return system_.phi.moves ? expand_single_by_law<true, true>(segment) : expand_single_by_law<true, false>(segment);
+  return system_.phi.moves ? expand_single_by_law<false, true>(segment) : expand_single_by_law<false, false>(segment);
 }
 
 #ifdef __x86_64__
-__attribute__((target("avx2"))) void MotionSeries::expand_single_wide(Segment& segment) { expand_any_single(segment); }
+__attribute__((target("avx2"))) bool MotionSeries::expand_single_wide(Segment& segment) {
+  return expand_any_single(segment);
+}
 
-void MotionSeries::expand_single(Segment& segment) {
+bool MotionSeries::expand_single(Segment& segment) {
   static const bool wide = __builtin_cpu_supports("avx2") != 0;
-  wide ? expand_single_wide(segment) : expand_any_single(segment);
+  return wide ? expand_single_wide(segment) : expand_any_single(segment);
 }
 #else
-void MotionSeries::expand_single(Segment& segment) { expand_any_single(segment); }
+bool MotionSeries::expand_single(Segment& segment) { return expand_any_single(segment); }
 #endif
 
 }  // namespace vibratory_alignment

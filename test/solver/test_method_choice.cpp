@@ -19,9 +19,9 @@ ContactStates sliding() {
   return contacts;
 }
 
-ContactStates sticking() {
+ContactStates two_contacts() {
   ContactStates contacts = sliding();
-  contacts[0].slip = Slip::stick;
+  contacts[1] = contacts[0];
   return contacts;
 }
 
@@ -84,22 +84,24 @@ TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
   EXPECT_EQ(steps_until_dropped(winner), 15);
 }
 
-TEST(MethodChoice, series_steps_that_stick_cost_more) {
-  MethodChoice choice;
+TEST(MethodChoice, series_steps_of_two_contacts_cost_more) {
+  MethodChoice choice, first;
   for (int i = 0; i < 99; ++i) {
     choice.earn();
-    choice.settle_series(1.0, kFar, sticking());
+    choice.settle_series(1.0, kFar, two_contacts());
   }
   EXPECT_DOUBLE_EQ(choice.trial_bounds(kFar).shortest, 2.0 / 2.5);
   EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 6.0 / 2.5);
+  EXPECT_TRUE(first.starts_first(1.0, kFar, two_contacts()));
+  EXPECT_DOUBLE_EQ(first.moderate_first(), 96.0 / 2.5);
 }
 
-TEST(MethodChoice, so_do_those_of_two_contacts) {
-  ContactStates two = sliding();
-  two[1] = two[0];
+TEST(MethodChoice, those_of_one_that_sticks_do_not) {
+  ContactStates sticking = sliding();
+  sticking[0].slip = Slip::stick;
   MethodChoice choice;
-  EXPECT_TRUE(choice.starts_first(1.0, kFar, two));
-  EXPECT_DOUBLE_EQ(choice.moderate_first(), 96.0 / 2.5);
+  EXPECT_TRUE(choice.starts_first(1.0, kFar, sticking));
+  EXPECT_DOUBLE_EQ(choice.moderate_first(), 96.0);
 }
 
 TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace) {

@@ -200,7 +200,18 @@ TEST_P(MotionSeriesAt, slips_forward) { expect(Slip::plus); }
 TEST_P(MotionSeriesAt, slips_backward) { expect(Slip::minus); }
 TEST_P(MotionSeriesAt, sticks) { expect(Slip::stick); }
 TEST_P(MotionSeriesAt, with_regularised_friction) { expect(Slip::regularized, {"friction.regularization=0.5"}); }
-TEST_P(MotionSeriesAt, on_an_isotropic_base) { expect(Slip::plus, {"base={stiffness: {y: 130}, damping: {y: 1.7}}"}); }
+TEST_P(MotionSeriesAt, on_an_isotropic_base) {
+  const std::string base = "base={stiffness: {y: 130}, damping: {y: 1.7}}";
+  for (const Slip slip : {Slip::plus, Slip::minus, Slip::stick}) expect(slip, {base});
+  expect(Slip::none, {base, "friction=null"});
+  expect(Slip::regularized, {base, "friction.regularization=0.5"});
+}
+TEST_P(MotionSeriesAt, on_an_isotropic_base_with_a_locked_tilt) {
+  const std::string base = "base={stiffness: {y: 130}, damping: {y: 1.7}}", locked = "part.inertia=null",
+                    tilted = "initial.phi=0.02";
+  for (const Slip slip : {Slip::plus, Slip::stick}) expect(slip, {base, locked, tilted});
+  expect(Slip::regularized, {base, locked, tilted, "friction.regularization=0.5"});
+}
 TEST_P(MotionSeriesAt, with_locked_motions) {
   expect(Slip::stick, {"part.inertia=null", "initial.phi=0.02"});
   expect(Slip::minus, {"gripper.stiffness.x=null"});
