@@ -295,12 +295,11 @@ void MotionSeries::expand_contact(const State& start, const DriveForms& drives, 
   end_sticking(segment);
 }
 
-/// The highest power of what sticks is not determined yet at the segment's order; V itself is zero by construction.
+/// V of what sticks is zero by construction.
 void MotionSeries::end_sticking(Segment& segment) const {
   for (int m = 0; m < sticking_count_; ++m) {
-    ContactSeries& series = segment.loaded[sticking_[m]];
-    series.tangential_force[segment.order] = 0.0;
-    std::fill(series.slip_velocity.begin(), series.slip_velocity.begin() + segment.order + 1, 0.0);
+    Series& v = segment.loaded[sticking_[m]].slip_velocity;
+    std::fill(v.begin(), v.begin() + segment.order + 1, 0.0);
   }
 }
 
