@@ -152,6 +152,14 @@ TEST(MethodChoice, steps_in_the_tanh_layer_have_costs_of_their_own) {
   EXPECT_EQ(steps_until_dropped(choice), 12);  // 55.85/5
 }
 
+TEST(MethodChoice, evaluations_cost_more_where_a_contact_sticks) {
+  ContactStates sticking = sliding();
+  sticking[0].slip = Slip::stick;
+  MethodChoice choice = rich();
+  for (int i = 0; i < 100; ++i) choice.settle_implicit(3.9 + 0.12 * 40 + 4.5 + 0.01, kFar, {40, 1}, sticking);
+  EXPECT_EQ(steps_until_dropped(choice), 12);  // 55.85/5
+}
+
 TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
   MethodChoice choice = rich();
   choice.ring();
