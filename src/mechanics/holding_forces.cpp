@@ -147,14 +147,7 @@ HoldingForces::Answer HoldingForces::hold_with(const Factor& factor, const Vecto
 
 HoldingForces::Answer HoldingForces::hold(const Vector& rhs, const Vector& noise) const {
   if (count_ == 0 || holds_nothing_) return {};
-  if (count_ == 1) {
-    Answer answer;
-    const double force = answer.force[0] = rhs[0] / single_.mobility;
-    answer.x = single_.x * force;
-    answer.y = single_.y * force;
-    answer.phi = single_.phi * force;
-    return answer;
-  }
+  if (count_ == 1) return hold_one(rhs[0]);
   const Answer answer = hold_with(safe_, rhs);
   if (safe_.rank == full_.rank) return answer;
   bool exact = true;
@@ -175,11 +168,7 @@ HoldingForces::Answer HoldingForces::hold_motion_with(const Factor& factor, cons
     if (scale_[a] > 0.0) asked[a] = rate[a] / scale_[a];
   for (int i = 0; i < count_; ++i) asked += factor.inverse.col(i) * own_rates[i];
   for (int i = 0; i < count_; ++i) held.force[i] = -factor.inverse.col(i).dot(asked);
-  if (holds_all) return held;
-  held.x = left_of(motion.x, held.x);
-  held.y = left_of(motion.y, held.y);
-  held.phi = left_of(motion.phi, held.phi);
-  return held;
+  return holds_all ? held : left_of(motion, held);
 }
 
 HoldingForces::Answer HoldingForces::hold_motion(const Answer& motion, const Vector& own_rates,

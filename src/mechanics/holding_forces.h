@@ -54,13 +54,8 @@ class HoldingForces {
 
   /// The same for a single contact that can be held: regular().
   Answer hold_motion_of_one(const Answer& motion, double own_rate) const {
-    Answer held;
     const double rate = rows_[0].x * motion.x + rows_[0].y * motion.y + rows_[0].moment * motion.phi;
-    const double force = held.force[0] = (-rate - own_rate) / single_.mobility;
-    held.x = left_of(motion.x, single_.x * force);
-    held.y = left_of(motion.y, single_.y * force);
-    held.phi = left_of(motion.phi, single_.phi * force);
-    return held;
+    return left_of(motion, hold_one(-rate - own_rate));
   }
 
   /// The same to rounding of V': taken out once more where that is delicate.
@@ -89,12 +84,24 @@ class HoldingForces {
   Answer hold_motion_with(const Factor& factor, const Answer& motion, const Vector& own_rates) const;
   double mobility(int i) const;
 
-  /// What a change leaves of the rate of an axis. Where all is held, that is rest: a part that moves by rounding would
-  /// have the time scale of rounding.
-  static double left_of(double rate, double change) {
-    constexpr double kRounding = 1e-15;  // of what is left, relative to what was taken out
-    const double left = rate + change;
-    return std::abs(left) <= kRounding * std::abs(rate) ? 0.0 : left;
+  /// hold() of a single contact.
+  Answer hold_one(double rhs) const {
+    const double force = rhs / single_.mobility;
+    return {{force}, single_.x * force, single_.y * force, single_.phi * force};
+  }
+
+  /// What a change leaves of a motion, in its place. Where all is held, that is rest: a part that moves by rounding
+  /// would have the time scale of rounding.
+  static Answer left_of(const Answer& motion, Answer change) {
+    const auto left = [](double rate, double changed) {
+      constexpr double kRounding = 1e-15;  // of what is left, relative to what was taken out
+      const double sum = rate + changed;
+      return std::abs(sum) <= kRounding * std::abs(rate) ? 0.0 : sum;
+    };
+    change.x = left(motion.x, change.x);
+    change.y = left(motion.y, change.y);
+    change.phi = left(motion.phi, change.phi);
+    return change;
   }
 
   int count_ = 0;
