@@ -1,14 +1,16 @@
 // Whether the solver `auto` chooses well: its CPU time beside the better one of `event` and `implicit`, as a table.
 //
-// Scenes: the files named, and one part in lasting contact over stiffness and damping ratio of the base: shaken across
-// and along, it sticks and slips twenty times and never leaves the base; and shaken by forces with kinks, after each of
-// which the base rings, with all laws of friction, over frequency, stiffness and damping ratio. The three solvers take
-// turns, so that what else the computer does meets all of them alike; a time is the median of the turns.
-// `> step limit`: more than a million steps. **: the ratio is above 1.3.
+// Scenes: the files named; one part in lasting contact over stiffness and damping ratio of the base: shaken across and
+// along, it sticks and slips twenty times and never leaves the base; and shaken by forces with kinks, after each of
+// which the base rings, with all laws of friction, over frequency, stiffness and damping ratio. Then random scenes of
+// the hunt (test/hunt), of which the table has only those above the ratio allowed. The three solvers take turns, so
+// that what else the computer does meets all of them alike; a time is the median of the turns.
+// `> step limit`: more than a million steps, a hundred thousand in random scenes. **: the ratio is above 1.3.
 // Usage: auto_choice TOLERANCE SCENE_FILE ...
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include "model/scene_loader.h"
+#include "random_scene.h"
 #include "trial/simulation.h"
 
 namespace va = vibratory_alignment;
@@ -27,11 +30,17 @@ constexpr std::array<const char*, 3> kSolvers = {"event", "implicit", "auto"};
 constexpr double kAllowedRatio = 1.3;
 
 /// Turns of each solver: until they have taken this long together, but neither fewer nor more than these.
-constexpr double kSecondsPerScene = 0.5;
+constexpr double kSecondsPerScene = 0.5, kSecondsPerRandomScene = 0.01;
 constexpr std::size_t kFewestTurns = 5, kMostTurns = 101;
 
 /// A solver that has taken this many times as long as the best one is left out of further turns.
 constexpr double kHopeless = 5.0;
+
+constexpr std::uint64_t kRandomScenes = 2000;
+constexpr long kRandomStepLimit = 100000;
+
+/// A trial that takes so long with the better solver is worth choosing for, in seconds.
+constexpr double kLongTrial = 5e-4;
 
 constexpr char kLastingContact[] = R"(
 part: {half_width: 0.67, base_distance: 0.93, inertia: 0.17}
@@ -123,10 +132,12 @@ void take_turn(const va::Scene& scene, const char* solver, double tolerance, Mea
   measured.seconds.push_back(result.cpu_seconds);
 }
 
-std::array<Measured, kSolvers.size()> measure(const va::Scene& scene, double tolerance) {
-  std::array<Measured, kSolvers.size()> all;
+using Measurement = std::array<Measured, kSolvers.size()>;
+
+Measurement measure(const va::Scene& scene, double tolerance, double seconds) {
+  Measurement all;
   double spent = 0.0;
-  for (std::size_t turn = 0; turn < kFewestTurns || (spent < kSecondsPerScene && turn < kMostTurns); ++turn) {
+  for (std::size_t turn = 0; turn < kFewestTurns || (spent < seconds && turn < kMostTurns); ++turn) {
     double best = HUGE_VAL;
     for (const Measured& m : all)
       if (m.usable()) best = std::min(best, m.median());
@@ -140,22 +151,34 @@ std::array<Measured, kSolvers.size()> measure(const va::Scene& scene, double tol
   return all;
 }
 
-/// Prints a row. Returns the time of `auto` over that of the better of the others.
-double report(const std::string& label, const va::Scene& scene, double tolerance) {
-  const auto all = measure(scene, tolerance);
-  std::printf("| %s |", label.c_str());
+/// Time of the better one of the solvers that `auto` chooses from.
+double better(const Measurement& all) {
   double best = HUGE_VAL;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].usable())
-      std::printf(" %.0f (%ld) |", 1e6 * all[i].median(), all[i].steps);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (all[i].usable()) best = std::min(best, all[i].median());
+  return best;
+}
+
+double ratio_of(const Measurement& all) { return all[2].usable() ? all[2].median() / better(all) : HUGE_VAL; }
+
+void print_row(const std::string& label, const Measurement& all) {
+  std::printf("| %s |", label.c_str());
+  for (const Measured& m : all) {
+    if (m.usable())
+      std::printf(" %.0f (%ld) |", 1e6 * m.median(), m.steps);
     else
-      std::printf(" %s |", all[i].failure.find("step limit") != std::string::npos ? "> step limit" : "failed");
-    if (i < 2 && all[i].usable()) best = std::min(best, all[i].median());
+      std::printf(" %s |", m.failure.find("step limit") != std::string::npos ? "> step limit" : "failed");
   }
-  const double ratio = all[2].usable() ? all[2].median() / best : HUGE_VAL;
+  const double ratio = ratio_of(all);
   std::printf(" %.2f%s |\n", ratio, ratio > kAllowedRatio ? " **" : "");
   std::fflush(stdout);
-  return ratio;
+}
+
+/// Prints a row. Returns the time of `auto` over that of the better of the others.
+double report(const std::string& label, const va::Scene& scene, double tolerance) {
+  const Measurement all = measure(scene, tolerance, kSecondsPerScene);
+  print_row(label, all);
+  return ratio_of(all);
 }
 
 struct Summary {
@@ -172,6 +195,32 @@ struct Summary {
     return static_cast<std::size_t>(std::count_if(ratios.begin(), ratios.end(), holds));
   }
 };
+
+bool is_above(double ratio) { return ratio > kAllowedRatio; }
+
+/// Prints the rows of random scenes above the ratio allowed, then how many there are.
+void report_random_scenes(double tolerance) {
+  Summary all, longer;
+  for (std::uint64_t seed = 0; seed < kRandomScenes; ++seed) {
+    va::Scene scene = va::hunt::random_scene(seed, va::hunt::Range::ordinary);
+    scene.solver.accuracy.reset();
+    scene.solver.step_limit = kRandomStepLimit;
+    Measurement measured;
+    try {
+      measured = measure(scene, tolerance, kSecondsPerRandomScene);
+    } catch (const va::SceneError&) {
+      continue;  // it has no start
+    }
+    if (better(measured) == HUGE_VAL) continue;
+    const double ratio = ratio_of(measured);
+    all.ratios.push_back(ratio);
+    if (better(measured) > kLongTrial) longer.ratios.push_back(ratio);
+    if (is_above(ratio)) print_row("random scene " + std::to_string(seed), measured);
+  }
+  std::printf("\n%zu of %zu random scenes above %.1f; of the %zu that take longer than %g ms %zu, worst %.2f\n",
+              all.count(is_above), all.ratios.size(), kAllowedRatio, longer.ratios.size(), 1e3 * kLongTrial,
+              longer.count(is_above), longer.worst());
+}
 
 }  // namespace
 
@@ -191,10 +240,12 @@ int main(int argc, char** argv) {
   }
   all = files;
   for (const Case& c : built_in_cases()) all.ratios.push_back(report(c.label, c.scene, tolerance));
-  std::printf("\n%zu of %zu above %.1f; worst %.2f", all.count([](double r) { return r > kAllowedRatio; }),
-              all.ratios.size(), kAllowedRatio, all.worst());
+  std::printf("\n%zu of %zu above %.1f; worst %.2f", all.count(is_above), all.ratios.size(), kAllowedRatio,
+              all.worst());
   if (!files.ratios.empty()) std::printf(", of the files %.2f", files.worst());
   std::printf("; %zu below 1; geometric mean %.2f\n", all.count([](double r) { return r < 1.0; }),
               all.geometric_mean());
+  std::printf("\n| random scene | event | implicit | auto | ratio |\n|---|---|---|---|---|\n");
+  report_random_scenes(tolerance);
   return 0;
 }

@@ -103,6 +103,18 @@ bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
 }
 
+/// Bound of the change of a normal force over the time t, as a share of that force: the largest of the contacts.
+double normal_force_change(const Segment& segment, double t) {
+  double most = 0.0;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const Series& force = segment.loaded[i].normal_force;
+    double change = 0.0;
+    for (int k = segment.order; k > 0; --k) change = (change + std::abs(force[k])) * t;
+    most = std::max(most, change / force[0]);
+  }
+  return most;
+}
+
 Site first_sticking(const ContactStates& contacts) {
   std::size_t i = 0;
   while (contacts[i].slip != Slip::stick) ++i;
@@ -323,43 +335,47 @@ double EventSolver::direction_step(double step, double point_tolerance) {
 
 /// One step in contact of at most `longest`, by the method that is due.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
-  const bool automatic = method_ == ContactMethod::automatic;
-  const bool first = automatic && now_.value() == 0.0;
+  // to a kink or limit that is here already, when rounding left nothing on the way, the series go
+  if (method_ == ContactMethod::series || longest == 0.0) return series_contact_step(drives);
+  if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
+  const double step = implicit_contact_step({longest}, drives);
+  if (step == 0.0) fail("an implicit step does not converge");
+  return step;
+}
+
+/// Automatic: one by the method that is chosen.
+double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
+  choice_.look_at(segment_.contacts);
   StepBounds bounds{longest};
-  if (automatic && !first && choice_.starts_trial()) {
+  if (choice_.may_pass_over()) {
+    const double step = series_contact_step(drives);
+    if (!choice_.starts_passing_over(step, longest, normal_force_change(segment_, std::min(step, longest)))) {
+      choice_.earn();
+      return step;
+    }
+    bounds = choice_.passing_bounds(longest);
+  } else if (choice_.starts_trial()) {
     implicit_.suggest(choice_.trial_length());
     bounds = choice_.trial_bounds(longest);
   }
-  if (automatic) effort_before_ = effort();
-  // to a kink or limit that is here already, when rounding left nothing on the way, the series go
-  if (longest > 0.0 && (first || method_ == ContactMethod::implicit || choice_.implicit())) {
-    const double step =
-        first ? first_implicit_step(longest, drives) : implicit_.take(state_, drives, bounds, segment_, counts_);
-    if (method_ == ContactMethod::implicit && step == 0.0) fail("an implicit step does not converge");
-    if (step == 0.0 && choice_.implicit()) settle(0.0, longest);
-    if (step > 0.0) {
-      implicit_now_ = true;
-      implicit_length_ = step;
-      series_.adopt(segment_);
-      return step;
-    }
+  if (choice_.implicit()) {
+    effort_before_ = effort();
+    const double step = implicit_contact_step(bounds, drives);
+    if (step > 0.0) return step;
+    settle(0.0, longest);
   }
-  if (automatic) choice_.earn();
+  choice_.earn();
   return series_contact_step(drives);
 }
 
-/// Automatic: the first step of a trial that starts in contact. That does not come out of an impact: its ring may be
-/// small enough to be passed over by a long step, or may have decayed after a moderate one.
-double EventSolver::first_implicit_step(double longest, const DriveForms& drives) {
-  if (!choice_.starts_first(series_contact_step(drives), longest, segment_.contacts)) return 0.0;
-  const StepBounds bounds = choice_.first_bounds(longest);
-  const double passing = implicit_.take(state_, drives, bounds, segment_, counts_);
-  if (passing > 0.0) return passing;
-  effort_before_ = effort();  // what the question has cost says nothing about implicit steps
-  implicit_.suggest(choice_.moderate_first());
-  const double moderate = implicit_.take(state_, drives, bounds, segment_, counts_);
-  if (moderate == 0.0) choice_.drop();
-  return moderate;
+/// An implicit step; 0 when there is none within the bounds.
+double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveForms& drives) {
+  const double step = implicit_.take(state_, drives, bounds, segment_, counts_);
+  if (step == 0.0) return 0.0;
+  implicit_now_ = true;
+  implicit_length_ = step;
+  series_.adopt(segment_);
+  return step;
 }
 
 /// Takes the implicit step again with the length `step`. False when that does not converge: the polynomials of the
@@ -377,13 +393,13 @@ StepEffort EventSolver::effort() const { return {counts_.rhs_evaluations, implic
 /// is gone again.
 void EventSolver::settle(double gone, double longest) {
   if (!choice_.implicit()) {
-    choice_.settle_series(gone, longest, segment_.contacts);
+    choice_.settle_series(gone, longest);
     return;
   }
   const StepEffort now = effort();
-  choice_.settle_implicit(
-      gone, longest, {now.evaluations - effort_before_.evaluations, now.factorizations - effort_before_.factorizations},
-      segment_.contacts);
+  const StepEffort taken{now.evaluations - effort_before_.evaluations,
+                         now.factorizations - effort_before_.factorizations};
+  choice_.settle_implicit(gone, longest, taken);
 }
 
 const Segment& EventSolver::advance(double limit) {
@@ -413,7 +429,7 @@ const Segment& EventSolver::advance(double limit) {
   if (contact) {
     in_flight_ = false;
   } else {
-    choice_.leave_contact();
+    if (method_ == ContactMethod::automatic) choice_.leave_contact();
     // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
     const double flown = in_flight_ ? now_ - flight_.start() : 0.0;
     const bool long_ago = in_flight_ && flown * flight_.rate(flown) > kLongestFlight;
@@ -471,7 +487,7 @@ const Segment& EventSolver::advance(double limit) {
       if (implicit_now_ && found.time > 0.0) shorten_implicit_step(found.time);
     }
   }
-  if (contact && method_ == ContactMethod::automatic) settle(segment_.duration, end);
+  if (contact && method_ == ContactMethod::automatic && end > 0.0) settle(segment_.duration, end);
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
     fail("the step has become too short");

@@ -33,7 +33,8 @@ class EventSolver final : public Solver {
   double series_contact_step(const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
-  double first_implicit_step(double longest, const DriveForms& drives);
+  double chosen_contact_step(double longest, const DriveForms& drives);
+  double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
   bool shorten_implicit_step(double step);
   StepEffort effort() const;
   void settle(double gone, double longest);

@@ -5,22 +5,48 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Costs of an implicit step: its own, of one evaluation of the forces in it and of one factorization. 1 is the time of
-/// a series step of one contact. Where a contact sticks, every evaluation finds its T.
+/// Costs of a step in contact: of the series, of one evaluation of the forces in an implicit step and of one
+/// factorization. 1 is the time of a series step of one sliding contact.
 struct Cost {
-  double step, evaluation, factorization;
+  double series, evaluation, factorization;
+
+  /// Of an implicit step that takes this.
+  constexpr double implicit(const StepEffort& effort) const {
+    constexpr double kStep = 0.6;
+    return kStep + evaluation * static_cast<double>(effort.evaluations) +
+           factorization * static_cast<double>(effort.factorizations);
+  }
+  constexpr double usual_implicit() const { return implicit({36, 0}); }
 };
-constexpr Cost kCost{3.9, 0.05, 4.5}, kStickCost{3.9, 0.12, 4.5}, kLayerCost{1.5, 0.27, 3.0};
 
-/// A usual implicit step; a series step of several contacts.
-constexpr double kImplicitCost = 6.0, kGeneralSeriesCost = 2.5;
+/// Kinds of contacts: by the dearest law that they follow, and for each one that is alone, beside others, beside others
+/// of the same law. The series have a loop of their own for one that is alone; an evaluation finds T where a contact
+/// sticks, where two do by a factorization.
+constexpr std::size_t kSlides = 0, kSticks = 3, kInLayer = 6;
+constexpr std::array<Cost, 9> kCosts = {{{1.0, 0.15, 5.0},
+                                         {2.2, 0.17, 5.0},
+                                         {2.2, 0.17, 5.0},
+                                         {1.5, 0.21, 5.5},
+                                         {4.5, 0.21, 5.5},
+                                         {6.0, 1.5, 15.0},
+                                         {1.2, 0.3, 3.2},
+                                         {2.6, 0.32, 3.0},
+                                         {3.1, 0.5, 2.0}}};
 
-/// What every series step in contact adds to what implicit steps may lose beside the series, and the most that gains
-/// may be saved for later losses: the short steps after a slip event.
-constexpr double kTrialShare = 0.15, kMostCredit = 150.0;
+/// Kinds whose base rings alike, so that the series go about as far: what a contact that sticks adds to one that slides
+/// is softer, the tanh layer is not; two that stick hold the part.
+constexpr std::array<int, 9> kRing = {0, 1, 1, 0, 1, 2, 3, 4, 4};
 
-/// Series steps in one contact before an implicit one is tried, and after a ring that had been left to the series.
-constexpr int kTrialAfter = 32, kTrialAfterRing = 6;
+/// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
+/// and the most that gains may be saved for later losses: the short steps after a slip event.
+constexpr double kTrialShare = 0.15, kMostCredit = 300.0;
+
+/// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones.
+constexpr double kFirstTrial = 1.5, kLaterTrial = 0.8;
+
+/// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
+/// until their pace is known.
+constexpr int kTrialAfter = 32, kTrialAfterRing = 6, kPaceKnown = 6;
 
 /// Implicit steps in a ring that do not pay before it is left to the series.
 constexpr int kMostLosses = 2;
@@ -30,92 +56,121 @@ constexpr int kMostLosses = 2;
 constexpr double kShortestTrial = 2.0;
 constexpr long kMostTrialEvaluations = 50;
 
-/// The same at the very start, where nothing is known yet. There, if no ring can be passed over, a step of the length
-/// kFirst is tried; but only where the way to the next kink is worth the question, which takes as long as 80 series
-/// steps.
-constexpr double kShortestFirst = 24.0, kFirst = 96.0, kShortestWay = 500.0;
+/// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
+/// series step, for a larger ring cannot be passed over, and where the way to the next kink is worth it: so many series
+/// steps; fewer where next to nothing rings.
+constexpr double kShortestPassing = 24.0, kMostRing = 2e-3, kPassingWay = 500.0, kNoRing = 1e-9;
+constexpr long kMostPassingEvaluations = 100;
 
-bool any_is(Slip slip, const ContactStates& contacts) {
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [slip](const ContactState& c) { return c.phase == Phase::loaded && c.slip == slip; });
-}
-
-/// A single contact has a loop of its own in the series.
-double series_cost(const ContactStates& contacts) {
-  const auto loaded =
-      std::count_if(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
-  return loaded == 1 ? 1.0 : kGeneralSeriesCost;
-}
-
-double implicit_cost(const StepEffort& effort, const ContactStates& contacts) {
-  const Cost& cost = any_is(Slip::regularized, contacts) ? kLayerCost
-                     : any_is(Slip::stick, contacts)     ? kStickCost
-                                                         : kCost;
-  return cost.step + cost.evaluation * static_cast<double>(effort.evaluations) +
-         cost.factorization * static_cast<double>(effort.factorizations);
+std::size_t kind_of(const ContactStates& contacts) {
+  int loaded = 0, stick = 0, in_layer = 0;
+  for (const ContactState& contact : contacts) {
+    if (contact.phase != Phase::loaded) continue;
+    ++loaded;
+    stick += contact.slip == Slip::stick;
+    in_layer += contact.slip == Slip::regularized;
+  }
+  const std::size_t law = in_layer > 0 ? kInLayer : stick > 0 ? kSticks : kSlides;
+  return law + (loaded == 1 ? 0 : std::max(in_layer, stick) < 2 ? 1 : 2);
 }
 
 }  // namespace
 
-bool MethodChoice::starts_first(double step, double longest, const ContactStates& contacts) {
-  step = std::min(step, longest);  // at rest it has no end
-  pace_ = step / series_cost(contacts);
-  implicit_ = step > 0.0 && longest >= kShortestWay * step;
-  return implicit_;
+MethodChoice::MethodChoice() { leave_to_series(kTrialAfter); }
+
+/// 0 where it is not known. Kinds that have not been stepped yet have the one of others whose base rings alike.
+double MethodChoice::pace() const {
+  static_assert(kCosts.size() == kKinds);
+  if (paces_[kind_].steps >= kPaceKnown) return paces_[kind_].way;
+  double way = 0.0;
+  for (std::size_t kind = 0; kind < kKinds; ++kind)
+    if (kRing[kind] == kRing[kind_] && paces_[kind].steps >= kPaceKnown) way = std::max(way, paces_[kind].way);
+  return way;
 }
 
-StepBounds MethodChoice::first_bounds(double longest) const { return {longest, kShortestFirst * pace_}; }
+void MethodChoice::leave_to_series(int steps) {
+  implicit_ = false;
+  series_steps_ = 0;
+  patience_ = steps;
+}
 
-double MethodChoice::moderate_first() const { return kFirst * pace_; }
+void MethodChoice::look_at(const ContactStates& contacts) {
+  kind_ = kind_of(contacts);
+  if (implicit_ && pace() == 0.0) leave_to_series(kPaceKnown);
+}
+
+bool MethodChoice::starts_passing_over(double step, double longest, double change) {
+  const bool worth = change <= kMostRing && longest > (change <= kNoRing ? kShortestPassing : kPassingWay) * step;
+  if (!worth || step == 0.0) return false;
+  paces_[kind_] = {step / kCosts[kind_].series, kPaceKnown};
+  implicit_ = passes_over_ = true;
+  return true;
+}
+
+StepBounds MethodChoice::passing_bounds(double longest) const {
+  return {longest, kShortestPassing * pace(), kMostPassingEvaluations};
+}
 
 bool MethodChoice::starts_trial() {
+  if (implicit_ || series_steps_ < patience_) return false;
+  const double needed = (tried_ ? kLaterTrial : kFirstTrial) * kCosts[kind_].usual_implicit();
   // where events coincide the series go nowhere, and say nothing
-  if (implicit_ || series_steps_ < patience_ || credit_ < kTrialShare * kTrialAfter || pace_ == 0.0) return false;
-  implicit_ = true;
+  if (credit_ < needed || pace() == 0.0) return false;
+  implicit_ = tried_ = true;
   return true;
 }
 
 StepBounds MethodChoice::trial_bounds(double longest) const {
-  return {longest, kShortestTrial * pace_, kMostTrialEvaluations};
+  return {longest, kShortestTrial * pace(), kMostTrialEvaluations};
 }
 
 /// Twice the length that would pay.
-double MethodChoice::trial_length() const { return 2.0 * kImplicitCost * pace_; }
+double MethodChoice::trial_length() const { return 2.0 * kCosts[kind_].usual_implicit() * pace(); }
 
 void MethodChoice::earn() {
   ++series_steps_;
-  credit_ = std::min(credit_ + kTrialShare, kMostCredit);
+  credit_ = std::min(credit_ + kTrialShare * kCosts[kind_].series, kMostCredit);
 }
 
-void MethodChoice::settle_series(double gone, double longest, const ContactStates& contacts) {
+void MethodChoice::settle_series(double gone, double longest) {
+  if (gone > 0.0) may_pass_over_ = false;
   if (gone == longest) return;  // cut short by a kink or the limit, it says nothing
-  const double weight = 1.0 / std::clamp(series_steps_, 1, kTrialAfter);
-  pace_ += weight * (gone / series_cost(contacts) - pace_);
+  Pace& pace = paces_[kind_];
+  pace.steps = std::min(pace.steps + 1, kTrialAfter);
+  pace.way += (gone / kCosts[kind_].series - pace.way) / pace.steps;
 }
 
-void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort,
-                                   const ContactStates& contacts) {
-  const double gain = gone / pace_ - implicit_cost(effort, contacts);
+void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
+  if (gone > 0.0) may_pass_over_ = false;
+  const bool passes_over = passes_over_;
+  passes_over_ = false;
+  if (passes_over && gone == 0.0) {  // what the question has cost says nothing about implicit steps
+    leave_to_series(kTrialAfter);
+    return;
+  }
+  const double gain = gone / pace() - kCosts[kind_].implicit(effort);
   if (gone == longest && gain < 0.0) return;  // cut short by a kink or the limit, it has not lost
   credit_ = std::min(credit_ + gain, kMostCredit);
   rings_ = rings_ && gain < 0.0;
   ++losses_;
-  const bool leaves_ring = rings_ && losses_ >= kMostLosses;
-  patience_ = leaves_ring ? kTrialAfterRing : kTrialAfter;
-  implicit_ = gone > 0.0 && credit_ > 0.0 && !leaves_ring;
-  if (leaves_ring) losses_ = 0;
-  if (!implicit_) series_steps_ = 0;
+  if (rings_ && losses_ >= kMostLosses) {
+    losses_ = 0;
+    leave_to_series(kTrialAfterRing);
+  } else if (gone == 0.0 || credit_ <= 0.0) {
+    leave_to_series(kTrialAfter);
+  }
 }
 
 void MethodChoice::ring() {
+  may_pass_over_ = false;
   rings_ = true;
   losses_ = 0;
 }
 
 void MethodChoice::leave_contact() {
-  implicit_ = false;
-  series_steps_ = 0;
-  patience_ = kTrialAfter;
+  may_pass_over_ = false;
+  for (Pace& pace : paces_) pace.steps = 0;
+  leave_to_series(kTrialAfter);
 }
 
 }  // namespace vibratory_alignment

@@ -2,6 +2,9 @@
 // on credit, which the series earn (docs/hybrid_step.md "Automatic").
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "solver/contact_mode.h"
 #include "solver/implicit_step.h"
 
@@ -18,18 +21,24 @@ struct StepEffort {
 
 class MethodChoice {
  public:
-  MethodChoice() { leave_contact(); }
+  MethodChoice();
+
+  /// The contacts of the next step. Where nothing is known of how far the series go in such, they go.
+  void look_at(const ContactStates& contacts);
 
   /// True when the next step in contact is an implicit one.
   bool implicit() const { return implicit_; }
 
-  /// The first step of a trial that starts in contact, over which the series would go `step` of at most `longest`.
-  /// True when an implicit one is worth asking for: it is due then.
-  bool starts_first(double step, double longest, const ContactStates& contacts);
+  /// True at the start of a trial that starts in contact, until time has passed: an implicit step may pass over the
+  /// ring of its base.
+  bool may_pass_over() const { return may_pass_over_; }
 
-  /// Bounds of that one, and the length tried when no ring can be passed over.
-  StepBounds first_bounds(double longest) const;
-  double moderate_first() const;
+  /// Decides that, where the series would go `step` of at most `longest` and the normal forces would change by the
+  /// share `change`. True when it is worth trying: an implicit step is due then.
+  bool starts_passing_over(double step, double longest, double change);
+
+  /// Bounds of that step.
+  StepBounds passing_bounds(double longest) const;
 
   /// True when an implicit step is to be tried now: it is due then.
   bool starts_trial();
@@ -38,17 +47,14 @@ class MethodChoice {
   StepBounds trial_bounds(double longest) const;
   double trial_length() const;
 
-  /// No implicit step is due any more.
-  void drop() { implicit_ = false; }
-
   /// The series are about to take a step in contact.
   void earn();
 
   /// The series have gone `gone` of at most `longest` in a step.
-  void settle_series(double gone, double longest, const ContactStates& contacts);
+  void settle_series(double gone, double longest);
 
   /// An implicit step has gone `gone` of at most `longest`; 0: was given up.
-  void settle_implicit(double gone, double longest, const StepEffort& effort, const ContactStates& contacts);
+  void settle_implicit(double gone, double longest, const StepEffort& effort);
 
   /// The normal forces jump: the base rings.
   void ring();
@@ -57,13 +63,28 @@ class MethodChoice {
   void leave_contact();
 
  private:
+  /// How far the series go for a cost of 1: the mean of the last steps in this contact.
+  struct Pace {
+    double way = 0.0;
+    int steps = 0;
+  };
+
+  static constexpr std::size_t kKinds = 9;  ///< of contacts, by what a step costs (method_choice.cpp)
+
+  double pace() const;
+  void leave_to_series(int steps);
+
+  std::size_t kind_ = 0;  ///< of the contacts of this step
+  std::array<Pace, kKinds> paces_;
   bool implicit_ = false;
-  double credit_ = -10.0;  ///< what implicit steps may lose; what the first trial may cost has to be earned before
-  double pace_ = 0.0;      ///< how far the series go for a cost of 1: mean of the last steps in this contact
-  int series_steps_ = 0;   ///< in this contact since the last implicit step
-  int patience_;           ///< series steps in a contact before an implicit step is tried
-  bool rings_ = false;     ///< no implicit step has paid since the base was made to ring
-  int losses_ = 0;         ///< implicit steps since then, or since it was last left to the series
+  bool may_pass_over_ = true;
+  bool passes_over_ = false;  ///< the implicit step that is due is to pass over a ring
+  bool tried_ = false;        ///< a trial has been made
+  double credit_ = 0.0;       ///< what implicit steps may lose
+  int series_steps_ = 0;      ///< in this contact since the last implicit step
+  int patience_;              ///< of these, before an implicit step is tried
+  bool rings_ = false;        ///< no implicit step has paid since the base was made to ring
+  int losses_ = 0;            ///< implicit steps since then, or since it was last left to the series
 };
 
 }  // namespace vibratory_alignment

@@ -2,6 +2,9 @@
 // one sliding contact, so that a series step of length 1 has the pace 1.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <initializer_list>
+
 #include "solver/method_choice.h"
 
 namespace vibratory_alignment {
@@ -9,37 +12,42 @@ namespace {
 
 constexpr double kFar = 1e9;
 
-/// An implicit step costs 3.9 + 0.05 an evaluation + 4.5 a factorization: 6.
-constexpr StepEffort kEffort{42, 0};
+/// An implicit step costs 0.6 + 0.15 an evaluation + 5.0 a factorization: 6.
+constexpr StepEffort kEffort{36, 0};
 
-ContactStates sliding() {
+ContactStates contacts_that(std::initializer_list<Slip> slips) {
   ContactStates contacts{};
-  contacts[0].phase = Phase::loaded;
-  contacts[0].slip = Slip::plus;
+  std::size_t i = 0;
+  for (const Slip slip : slips) {
+    contacts[i].phase = Phase::loaded;
+    contacts[i++].slip = slip;
+  }
   return contacts;
 }
 
-ContactStates two_contacts() {
-  ContactStates contacts = sliding();
-  contacts[1] = contacts[0];
-  return contacts;
+const ContactStates kSliding = contacts_that({Slip::plus});
+
+/// A series step of such contacts that goes 1; true when an implicit one was tried instead.
+bool tries(MethodChoice& choice, const ContactStates& contacts = kSliding) {
+  choice.look_at(contacts);
+  if (choice.starts_trial()) return true;
+  choice.earn();
+  choice.settle_series(1.0, kFar);
+  return false;
 }
 
 /// So many series steps of length 1; true when an implicit step is tried after the last of them and not before.
-bool tries_after(int steps, MethodChoice& choice) {
-  for (int i = 0; i < steps; ++i) {
-    if (choice.starts_trial()) return false;
-    choice.earn();
-    choice.settle_series(1.0, kFar, sliding());
-  }
-  return choice.starts_trial();
+bool tries_after(int steps, MethodChoice& choice, const ContactStates& contacts = kSliding) {
+  for (int i = 0; i < steps; ++i)
+    if (tries(choice, contacts)) return false;
+  return tries(choice, contacts);
 }
 
 /// A choice whose first trial has just paid 50.
 MethodChoice rich() {
   MethodChoice choice;
-  EXPECT_TRUE(tries_after(99, choice));
-  choice.settle_implicit(56.0, kFar, kEffort, sliding());
+  EXPECT_TRUE(tries_after(60, choice));
+  choice.settle_implicit(56.0, kFar, kEffort);
   EXPECT_TRUE(choice.implicit());
   return choice;
 }
@@ -47,83 +55,107 @@ MethodChoice rich() {
 /// Implicit steps that go 1 each until they are given up.
 int steps_until_dropped(MethodChoice& choice) {
   int steps = 0;
-  for (; choice.implicit(); ++steps) choice.settle_implicit(1.0, kFar, kEffort, sliding());
+  for (; choice.implicit(); ++steps) choice.settle_implicit(1.0, kFar, kEffort);
   return steps;
+}
+
+/// What an implicit step takes where the contacts are such: one that goes as far has not lost.
+double cost_of(const ContactStates& contacts, double series_cost, const StepEffort& effort) {
+  MethodChoice choice;
+  for (int i = 0; !tries(choice, contacts); ++i)
+    if (i > 1000) return HUGE_VAL;
+  // a step that goes as far as `way` gains way x cost - what it takes: found by halving where it is not dropped
+  double low = 0.0, high = 1e3;
+  for (int i = 0; i < 60; ++i) {
+    const double way = 0.5 * (low + high);
+    MethodChoice copy = choice;
+    copy.ring();
+    copy.settle_implicit(way, kFar, effort);
+    copy.settle_implicit(way, kFar, effort);
+    (copy.implicit() ? high : low) = way;
+  }
+  return high * series_cost;
 }
 
 TEST(MethodChoice, the_first_trial_has_to_be_earned) {
   MethodChoice choice;
-  // -10 + 0.15 n >= 0.15 x 32
-  EXPECT_TRUE(tries_after(99, choice));
+  // 0.15 n >= 1.5 x 6
+  EXPECT_TRUE(tries_after(60, choice));
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   MethodChoice choice;
-  ASSERT_TRUE(tries_after(99, choice));
-  choice.settle_implicit(0.0, kFar, {22, 1}, sliding());  // 4.85 - 9.5
+  ASSERT_TRUE(tries_after(60, choice));
+  choice.settle_implicit(0.0, kFar, {24, 1});  // 9 - 9.2
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(63, choice));  // (4.8 + 4.65)/0.15
+  EXPECT_TRUE(tries_after(34, choice));  // (0.8 x 6 + 0.2)/0.15
 }
 
 TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
   MethodChoice choice = rich();
-  EXPECT_EQ(steps_until_dropped(choice), 11);  // 54.85/5
+  EXPECT_EQ(steps_until_dropped(choice), 12);  // 59/5
 }
 
 TEST(MethodChoice, gains_are_saved_up_to_a_bound) {
   MethodChoice choice = rich();
-  for (int i = 0; i < 100; ++i) choice.settle_implicit(56.0, kFar, kEffort, sliding());
-  EXPECT_EQ(steps_until_dropped(choice), 30);  // 150/5
+  for (int i = 0; i < 100; ++i) choice.settle_implicit(56.0, kFar, kEffort);
+  EXPECT_NEAR(steps_until_dropped(choice), 60, 1);  // 300/5, but for rounding
 }
 
 TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
   MethodChoice loser = rich(), winner = rich();
-  for (int i = 0; i < 100; ++i) loser.settle_implicit(1.0, 1.0, kEffort, sliding());
-  EXPECT_EQ(steps_until_dropped(loser), 11);
-  winner.settle_implicit(26.0, 26.0, kEffort, sliding());
-  EXPECT_EQ(steps_until_dropped(winner), 15);
+  for (int i = 0; i < 100; ++i) loser.settle_implicit(1.0, 1.0, kEffort);
+  EXPECT_EQ(steps_until_dropped(loser), 12);
+  winner.settle_implicit(26.0, 26.0, kEffort);
+  EXPECT_EQ(steps_until_dropped(winner), 16);  // 79/5
 }
 
-TEST(MethodChoice, series_steps_of_two_contacts_cost_more) {
-  MethodChoice choice, first;
-  for (int i = 0; i < 99; ++i) {
-    choice.earn();
-    choice.settle_series(1.0, kFar, two_contacts());
+TEST(MethodChoice, a_trial_has_twice_the_length_that_would_pay) {
+  MethodChoice choice = rich();
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+  EXPECT_DOUBLE_EQ(choice.trial_bounds(kFar).shortest, 2.0);
+  EXPECT_EQ(choice.trial_bounds(kFar).longest, kFar);
+  EXPECT_EQ(choice.trial_bounds(kFar).evaluations, 50);
+}
+
+// A series step that costs s and goes 1 has the pace 1/s; a trial of a usual implicit step of cost c is 2 c/s long.
+TEST(MethodChoice, costs_follow_the_laws_of_the_contacts) {
+  struct Kind {
+    std::initializer_list<Slip> slips;
+    double series, usual, evaluation, factorization;
+  };
+  constexpr Slip plus = Slip::plus, minus = Slip::minus, stick = Slip::stick, layer = Slip::regularized;
+  const Kind kinds[] = {{{plus}, 1.0, 6.0, 0.15, 5.0},           {{plus, minus}, 2.2, 6.72, 0.17, 5.0},
+                        {{stick}, 1.5, 8.16, 0.21, 5.5},         {{stick, plus}, 4.5, 8.16, 0.21, 5.5},
+                        {{stick, stick}, 6.0, 54.6, 1.5, 15.0},  {{layer}, 1.2, 11.4, 0.3, 3.2},
+                        {{layer, minus}, 2.6, 12.12, 0.32, 3.0}, {{layer, layer}, 3.1, 18.6, 0.5, 2.0}};
+  for (const Kind& kind : kinds) {
+    const ContactStates contacts = contacts_that(kind.slips);
+    MethodChoice choice;
+    for (int i = 0; i < 500 && !tries(choice, contacts); ++i) {
+    }
+    EXPECT_NEAR(choice.trial_length(), 2.0 * kind.usual / kind.series, 1e-12);
+    EXPECT_NEAR(cost_of(contacts, kind.series, {40, 2}), 0.6 + 40 * kind.evaluation + 2 * kind.factorization, 1e-9);
   }
-  EXPECT_DOUBLE_EQ(choice.trial_bounds(kFar).shortest, 2.0 / 2.5);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 6.0 / 2.5);
-  EXPECT_TRUE(first.starts_first(1.0, kFar, two_contacts()));
-  EXPECT_DOUBLE_EQ(first.moderate_first(), 96.0 / 2.5);
-}
-
-TEST(MethodChoice, those_of_one_that_sticks_do_not) {
-  ContactStates sticking = sliding();
-  sticking[0].slip = Slip::stick;
-  MethodChoice choice;
-  EXPECT_TRUE(choice.starts_first(1.0, kFar, sticking));
-  EXPECT_DOUBLE_EQ(choice.moderate_first(), 96.0);
 }
 
 TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace) {
   MethodChoice choice;
-  EXPECT_TRUE(tries_after(99, choice));
-  choice.drop();
+  for (int i = 0; i < 40; ++i) tries(choice);
   choice.earn();
-  choice.settle_series(0.1, 0.1, sliding());
-  EXPECT_EQ(choice.trial_length(), 12.0);
+  choice.settle_series(0.1, 0.1);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
 }
 
 TEST(MethodChoice, nothing_is_tried_where_the_series_have_gone_nowhere) {
-  MethodChoice choice, first;
+  MethodChoice choice;
   for (int i = 0; i < 200; ++i) {
+    choice.look_at(kSliding);
     EXPECT_FALSE(choice.starts_trial());
     choice.earn();
-    choice.settle_series(0.0, kFar, sliding());
+    choice.settle_series(0.0, kFar);
   }
-  EXPECT_FALSE(first.starts_first(0.0, kFar, sliding()));
 }
-
-TEST(MethodChoice, a_trial_ends_after_50_evaluations) { EXPECT_EQ(MethodChoice().trial_bounds(kFar).evaluations, 50); }
 
 TEST(MethodChoice, a_ring_that_does_not_pay_is_left_to_the_series) {
   MethodChoice choice = rich();
@@ -139,33 +171,17 @@ TEST(MethodChoice, a_trial_in_a_ring_that_is_given_up_is_not_repeated_so_soon) {
   choice.ring();
   steps_until_dropped(choice);
   ASSERT_TRUE(tries_after(6, choice));
-  choice.settle_implicit(0.0, kFar, kEffort, sliding());
+  choice.settle_implicit(0.0, kFar, kEffort);
   EXPECT_FALSE(choice.implicit());
   EXPECT_TRUE(tries_after(32, choice));
-}
-
-TEST(MethodChoice, steps_in_the_tanh_layer_have_costs_of_their_own) {
-  ContactStates layer = sliding();
-  layer[0].slip = Slip::regularized;
-  MethodChoice choice = rich();
-  for (int i = 0; i < 100; ++i) choice.settle_implicit(1.5 + 0.27 * 40 + 3.0 + 0.01, kFar, {40, 1}, layer);
-  EXPECT_EQ(steps_until_dropped(choice), 12);  // 55.85/5
-}
-
-TEST(MethodChoice, evaluations_cost_more_where_a_contact_sticks) {
-  ContactStates sticking = sliding();
-  sticking[0].slip = Slip::stick;
-  MethodChoice choice = rich();
-  for (int i = 0; i < 100; ++i) choice.settle_implicit(3.9 + 0.12 * 40 + 4.5 + 0.01, kFar, {40, 1}, sticking);
-  EXPECT_EQ(steps_until_dropped(choice), 12);  // 55.85/5
 }
 
 TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
   MethodChoice choice = rich();
   choice.ring();
-  choice.settle_implicit(1.0, kFar, kEffort, sliding());
-  choice.settle_implicit(6.0, kFar, kEffort, sliding());
-  EXPECT_EQ(steps_until_dropped(choice), 10);  // 49.85/5
+  choice.settle_implicit(1.0, kFar, kEffort);
+  choice.settle_implicit(6.0, kFar, kEffort);
+  EXPECT_EQ(steps_until_dropped(choice), 11);  // 54/5
 }
 
 TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
@@ -175,12 +191,79 @@ TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
   EXPECT_TRUE(tries_after(32, choice));
 }
 
-TEST(MethodChoice, the_first_step_of_a_trial_is_implicit_when_the_way_is_long) {
-  MethodChoice near, far;
-  EXPECT_FALSE(near.starts_first(1.0, 499.0, sliding()));
-  EXPECT_TRUE(far.starts_first(1.0, 501.0, sliding()));
-  EXPECT_DOUBLE_EQ(far.first_bounds(501.0).shortest, 24.0);
-  EXPECT_DOUBLE_EQ(far.moderate_first(), 96.0);
+TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
+  MethodChoice choice = rich();
+  const ContactStates two = contacts_that({Slip::plus, Slip::plus});
+  choice.look_at(two);
+  EXPECT_FALSE(choice.implicit());
+  EXPECT_TRUE(tries_after(6, choice, two));
+  choice.look_at(kSliding);  // whose pace is still known
+  EXPECT_TRUE(choice.implicit());
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+}
+
+TEST(MethodChoice, a_contact_that_begins_to_stick_goes_on_at_the_pace_of_the_one_that_slid) {
+  MethodChoice choice = rich();
+  choice.look_at(contacts_that({Slip::stick}));
+  EXPECT_TRUE(choice.implicit());
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 8.16);
+}
+
+TEST(MethodChoice, the_tanh_layer_is_stiffer_than_what_slides) {
+  MethodChoice choice = rich();
+  choice.look_at(contacts_that({Slip::regularized}));
+  EXPECT_FALSE(choice.implicit());
+}
+
+/// A choice at the first step of a trial.
+MethodChoice fresh() {
+  MethodChoice choice;
+  choice.look_at(kSliding);
+  return choice;
+}
+
+TEST(MethodChoice, a_ring_is_passed_over_at_the_start_alone) {
+  MethodChoice flown = fresh(), kinked = fresh(), begun = fresh();
+  flown.leave_contact();
+  EXPECT_FALSE(flown.may_pass_over());
+  kinked.ring();
+  EXPECT_FALSE(kinked.may_pass_over());
+  begun.earn();
+  begun.settle_series(0.0, kFar);  // what sticks has been found to slip
+  EXPECT_TRUE(begun.may_pass_over());
+  begun.settle_series(1.0, kFar);
+  EXPECT_FALSE(begun.may_pass_over());
+}
+
+TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
+  MethodChoice choice = fresh();
+  ASSERT_TRUE(choice.starts_passing_over(1.0, 501.0, 1e-3));
+  choice.settle_implicit(400.0, 501.0, kEffort);
+  EXPECT_TRUE(choice.implicit());
+  EXPECT_FALSE(choice.may_pass_over());
+}
+
+TEST(MethodChoice, a_ring_is_passed_over_where_it_is_small_and_the_way_is_long) {
+  EXPECT_TRUE(fresh().starts_passing_over(1.0, 501.0, 1.9e-3));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 501.0, 2.1e-3));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 499.0, 1.9e-3));
+  EXPECT_TRUE(fresh().starts_passing_over(1.0, 25.0, 1e-10));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 23.0, 1e-10));
+  EXPECT_FALSE(fresh().starts_passing_over(0.0, kFar, 1e-10));
+  MethodChoice choice = fresh();
+  choice.starts_passing_over(1.0, 501.0, 1e-3);
+  EXPECT_TRUE(choice.implicit());
+  EXPECT_DOUBLE_EQ(choice.passing_bounds(501.0).shortest, 24.0);
+  EXPECT_EQ(choice.passing_bounds(501.0).longest, 501.0);
+  EXPECT_EQ(choice.passing_bounds(501.0).evaluations, 100);
+}
+
+TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
+  MethodChoice choice = fresh();
+  ASSERT_TRUE(choice.starts_passing_over(1.0, 501.0, 1e-3));
+  choice.settle_implicit(0.0, kFar, {1000, 1000});
+  EXPECT_FALSE(choice.implicit());
+  EXPECT_TRUE(tries_after(60, choice));
 }
 
 }  // namespace
