@@ -39,10 +39,10 @@ constexpr std::array<int, 9> kRing = {0, 1, 1, 0, 1, 2, 3, 4, 4};
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
-constexpr double kTrialShare = 0.15, kMostCredit = 300.0;
+constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones.
-constexpr double kFirstTrial = 1.5, kLaterTrial = 0.8;
+constexpr double kFirstTrial = 1.3, kLaterTrial = 0.8;
 
 /// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
 /// until their pace is known.
