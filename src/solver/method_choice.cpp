@@ -5,12 +5,14 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Costs of a step in contact: of the series, of one evaluation of the forces in an implicit step and of one
-/// factorization. 1 is the time of a series step of one sliding contact.
-struct Cost {
+/// A kind of contacts. Costs: of a step of the series, of one evaluation of the forces in an implicit step and of one
+/// factorization; 1 is the time of a series step of one sliding contact. The base rings alike, so that the series go
+/// about as far, where `ring` is the same.
+struct Kind {
   double series, evaluation, factorization;
+  int ring;
 
-  /// Of an implicit step that takes this.
+  /// Cost of an implicit step that takes this.
   constexpr double implicit(const StepEffort& effort) const {
     constexpr double kStep = 0.6;
     return kStep + evaluation * static_cast<double>(effort.evaluations) +
@@ -19,30 +21,27 @@ struct Cost {
   constexpr double usual_implicit() const { return implicit({36, 0}); }
 };
 
-/// Kinds of contacts: by the dearest law that they follow, and for each one that is alone, beside others, beside others
-/// of the same law. The series have a loop of their own for one that is alone; an evaluation finds T where a contact
-/// sticks, where two do by a factorization.
-constexpr std::size_t kSlides = 0, kSticks = 3, kInLayer = 6;
-constexpr std::array<Cost, 9> kCosts = {{{1.0, 0.15, 5.0},
-                                         {2.2, 0.17, 5.0},
-                                         {2.2, 0.17, 5.0},
-                                         {1.5, 0.21, 5.5},
-                                         {4.5, 0.21, 5.5},
-                                         {6.0, 1.5, 15.0},
-                                         {1.2, 0.3, 3.2},
-                                         {2.6, 0.32, 3.0},
-                                         {3.1, 0.5, 2.0}}};
-
-/// Kinds whose base rings alike, so that the series go about as far: what a contact that sticks adds to one that slides
-/// is softer, the tanh layer is not; two that stick hold the part.
-constexpr std::array<int, 9> kRing = {0, 1, 1, 0, 1, 2, 3, 4, 4};
+/// By the dearest law that contacts follow, and for each: one that is alone, beside others, beside others of that law.
+/// The series have a loop of their own for one that is alone; an evaluation finds T where a contact sticks, where two
+/// do by a factorization. What sticking adds is softer than the base, the tanh layer is not; two that stick hold the
+/// part.
+constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;
+constexpr std::array<Kind, 9> kKind = {{{1.0, 0.15, 5.0, 0},
+                                        {2.2, 0.17, 5.0, 1},
+                                        {2.2, 0.17, 5.0, 1},
+                                        {1.5, 0.21, 5.5, 0},
+                                        {4.5, 0.21, 5.5, 1},
+                                        {6.0, 1.5, 15.0, 2},
+                                        {1.2, 0.3, 3.2, 3},
+                                        {2.6, 0.32, 3.0, 4},
+                                        {3.1, 0.5, 2.0, 4}}};
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
 constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones.
-constexpr double kFirstTrial = 1.3, kLaterTrial = 0.8;
+constexpr double kFirstTrial = 2.0, kLaterTrial = 0.8;
 
 /// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
 /// until their pace is known.
@@ -70,7 +69,7 @@ std::size_t kind_of(const ContactStates& contacts) {
     stick += contact.slip == Slip::stick;
     in_layer += contact.slip == Slip::regularized;
   }
-  const std::size_t law = in_layer > 0 ? kInLayer : stick > 0 ? kSticks : kSlides;
+  const std::size_t law = in_layer > 0 ? kInLayer : stick > 0 ? kStick : kSlide;
   return law + (loaded == 1 ? 0 : std::max(in_layer, stick) < 2 ? 1 : 2);
 }
 
@@ -80,11 +79,12 @@ MethodChoice::MethodChoice() { leave_to_series(kTrialAfter); }
 
 /// 0 where it is not known. Kinds that have not been stepped yet have the one of others whose base rings alike.
 double MethodChoice::pace() const {
-  static_assert(kCosts.size() == kKinds);
+  static_assert(kKind.size() == kKinds);
   if (paces_[kind_].steps >= kPaceKnown) return paces_[kind_].way;
   double way = 0.0;
   for (std::size_t kind = 0; kind < kKinds; ++kind)
-    if (kRing[kind] == kRing[kind_] && paces_[kind].steps >= kPaceKnown) way = std::max(way, paces_[kind].way);
+    if (kKind[kind].ring == kKind[kind_].ring && paces_[kind].steps >= kPaceKnown)
+      way = std::max(way, paces_[kind].way);
   return way;
 }
 
@@ -102,7 +102,7 @@ void MethodChoice::look_at(const ContactStates& contacts) {
 bool MethodChoice::starts_passing_over(double step, double longest, double change) {
   const bool worth = change <= kMostRing && longest > (change <= kNoRing ? kShortestPassing : kPassingWay) * step;
   if (!worth || step == 0.0) return false;
-  paces_[kind_] = {step / kCosts[kind_].series, kPaceKnown};
+  paces_[kind_] = {step / kKind[kind_].series, kPaceKnown};
   implicit_ = passes_over_ = true;
   return true;
 }
@@ -113,7 +113,7 @@ StepBounds MethodChoice::passing_bounds(double longest) const {
 
 bool MethodChoice::starts_trial() {
   if (implicit_ || series_steps_ < patience_) return false;
-  const double needed = (tried_ ? kLaterTrial : kFirstTrial) * kCosts[kind_].usual_implicit();
+  const double needed = (tried_ ? kLaterTrial : kFirstTrial) * kKind[kind_].usual_implicit();
   // where events coincide the series go nowhere, and say nothing
   if (credit_ < needed || pace() == 0.0) return false;
   implicit_ = tried_ = true;
@@ -125,11 +125,11 @@ StepBounds MethodChoice::trial_bounds(double longest) const {
 }
 
 /// Twice the length that would pay.
-double MethodChoice::trial_length() const { return 2.0 * kCosts[kind_].usual_implicit() * pace(); }
+double MethodChoice::trial_length() const { return 2.0 * kKind[kind_].usual_implicit() * pace(); }
 
 void MethodChoice::earn() {
   ++series_steps_;
-  credit_ = std::min(credit_ + kTrialShare * kCosts[kind_].series, kMostCredit);
+  credit_ = std::min(credit_ + kTrialShare * kKind[kind_].series, kMostCredit);
 }
 
 void MethodChoice::settle_series(double gone, double longest) {
@@ -137,7 +137,7 @@ void MethodChoice::settle_series(double gone, double longest) {
   if (gone == longest) return;  // cut short by a kink or the limit, it says nothing
   Pace& pace = paces_[kind_];
   pace.steps = std::min(pace.steps + 1, kTrialAfter);
-  pace.way += (gone / kCosts[kind_].series - pace.way) / pace.steps;
+  pace.way += (gone / kKind[kind_].series - pace.way) / pace.steps;
 }
 
 void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
@@ -148,7 +148,7 @@ void MethodChoice::settle_implicit(double gone, double longest, const StepEffort
     leave_to_series(kTrialAfter);
     return;
   }
-  const double gain = gone / pace() - kCosts[kind_].implicit(effort);
+  const double gain = gone / pace() - kKind[kind_].implicit(effort);
   if (gone == longest && gain < 0.0) return;  // cut short by a kink or the limit, it has not lost
   credit_ = std::min(credit_ + gain, kMostCredit);
   rings_ = rings_ && gain < 0.0;
