@@ -184,7 +184,7 @@ double report(const std::string& label, const va::Scene& scene, double tolerance
 struct Summary {
   std::vector<double> ratios;
 
-  double worst() const { return *std::max_element(ratios.begin(), ratios.end()); }
+  double worst() const { return ratios.empty() ? 0.0 : *std::max_element(ratios.begin(), ratios.end()); }
   double geometric_mean() const {
     double sum = 0.0;
     for (const double ratio : ratios) sum += std::log(ratio);

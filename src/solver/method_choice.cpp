@@ -41,7 +41,7 @@ constexpr std::array<Kind, 9> kKind = {{{1.0, 0.15, 5.0, 0},
 constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones.
-constexpr double kFirstTrial = 2.0, kLaterTrial = 0.8;
+constexpr double kFirstTrial = 1.6, kLaterTrial = 0.8;
 
 /// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
 /// until their pace is known.

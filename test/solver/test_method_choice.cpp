@@ -46,7 +46,7 @@ bool tries_after(int steps, MethodChoice& choice, const ContactStates& contacts 
 /// A choice whose first trial has just paid 50.
 MethodChoice rich() {
   MethodChoice choice;
-  EXPECT_TRUE(tries_after(100, choice));
+  EXPECT_TRUE(tries_after(80, choice));
   choice.settle_implicit(56.0, kFar, kEffort);
   EXPECT_TRUE(choice.implicit());
   return choice;
@@ -79,21 +79,21 @@ double cost_of(const ContactStates& contacts, double series_cost, const StepEffo
 
 TEST(MethodChoice, the_first_trial_has_to_be_earned) {
   MethodChoice choice;
-  // 0.12 n >= 2 x 6
-  EXPECT_TRUE(tries_after(100, choice));
+  // 0.12 n >= 1.6 x 6
+  EXPECT_TRUE(tries_after(80, choice));
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   MethodChoice choice;
-  ASSERT_TRUE(tries_after(100, choice));
-  choice.settle_implicit(0.0, kFar, {57, 1});  // 12 - 14.15
+  ASSERT_TRUE(tries_after(80, choice));
+  choice.settle_implicit(0.0, kFar, {41, 1});  // 9.6 - 11.75
   EXPECT_FALSE(choice.implicit());
   EXPECT_TRUE(tries_after(58, choice));  // (0.8 x 6 + 2.15)/0.12
 }
 
 TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
   MethodChoice choice = rich();
-  EXPECT_EQ(steps_until_dropped(choice), 13);  // 62/5
+  EXPECT_EQ(steps_until_dropped(choice), 12);  // 59.6/5
 }
 
 TEST(MethodChoice, gains_are_saved_up_to_a_bound) {
@@ -105,9 +105,9 @@ TEST(MethodChoice, gains_are_saved_up_to_a_bound) {
 TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
   MethodChoice loser = rich(), winner = rich();
   for (int i = 0; i < 100; ++i) loser.settle_implicit(1.0, 1.0, kEffort);
-  EXPECT_EQ(steps_until_dropped(loser), 13);
+  EXPECT_EQ(steps_until_dropped(loser), 12);
   winner.settle_implicit(26.0, 26.0, kEffort);
-  EXPECT_EQ(steps_until_dropped(winner), 17);  // 82/5
+  EXPECT_EQ(steps_until_dropped(winner), 16);  // 79.6/5
 }
 
 TEST(MethodChoice, a_trial_has_twice_the_length_that_would_pay) {
@@ -181,7 +181,7 @@ TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
   choice.ring();
   choice.settle_implicit(1.0, kFar, kEffort);
   choice.settle_implicit(6.0, kFar, kEffort);
-  EXPECT_EQ(steps_until_dropped(choice), 12);  // 57/5
+  EXPECT_EQ(steps_until_dropped(choice), 11);  // 54.6/5
 }
 
 TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
@@ -263,7 +263,7 @@ TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
   ASSERT_TRUE(choice.starts_passing_over(1.0, 501.0, 1e-3));
   choice.settle_implicit(0.0, kFar, {1000, 1000});
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(100, choice));
+  EXPECT_TRUE(tries_after(80, choice));
 }
 
 }  // namespace
