@@ -41,7 +41,7 @@ constexpr std::array<Kind, 9> kKind = {{{1.0, 0.15, 5.0, 0},
 constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones.
-constexpr double kFirstTrial = 1.6, kLaterTrial = 0.8;
+constexpr double kFirstTrial = 1.65, kLaterTrial = 0.8;
 
 /// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
 /// until their pace is known.
@@ -58,7 +58,7 @@ constexpr long kMostTrialEvaluations = 50;
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
 /// series step, for a larger ring cannot be passed over, and where the way to the next kink is worth it: so many series
 /// steps; fewer where next to nothing rings.
-constexpr double kShortestPassing = 24.0, kMostRing = 1.2e-2, kPassingWay = 500.0, kNoRing = 1e-9;
+constexpr double kShortestPassing = 24.0, kMostRing = 4e-3, kPassingWay = 500.0, kNoRing = 1e-9;
 constexpr long kMostPassingEvaluations = 100;
 
 std::size_t kind_of(const ContactStates& contacts) {
