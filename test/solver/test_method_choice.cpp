@@ -244,9 +244,9 @@ TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_where_it_is_small_and_the_way_is_long) {
-  EXPECT_TRUE(fresh().starts_passing_over(1.0, 501.0, 3.9e-3));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 501.0, 4.1e-3));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 499.0, 3.9e-3));
+  EXPECT_TRUE(fresh().starts_passing_over(1.0, 501.0, 2.1e-3));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 501.0, 2.3e-3));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 499.0, 2.1e-3));
   EXPECT_TRUE(fresh().starts_passing_over(1.0, 25.0, 1e-10));
   EXPECT_FALSE(fresh().starts_passing_over(1.0, 23.0, 1e-10));
   EXPECT_FALSE(fresh().starts_passing_over(0.0, kFar, 1e-10));
