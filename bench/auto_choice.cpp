@@ -161,6 +161,8 @@ double better(const Measurement& all) {
 
 double ratio_of(const Measurement& all) { return all[2].usable() ? all[2].median() / better(all) : HUGE_VAL; }
 
+bool is_above(double ratio) { return ratio > kAllowedRatio; }
+
 void print_row(const std::string& label, const Measurement& all) {
   std::printf("| %s |", label.c_str());
   for (const Measured& m : all) {
@@ -170,7 +172,7 @@ void print_row(const std::string& label, const Measurement& all) {
       std::printf(" %s |", m.failure.find("step limit") != std::string::npos ? "> step limit" : "failed");
   }
   const double ratio = ratio_of(all);
-  std::printf(" %.2f%s |\n", ratio, ratio > kAllowedRatio ? " **" : "");
+  std::printf(" %.2f%s |\n", ratio, is_above(ratio) ? " **" : "");
   std::fflush(stdout);
 }
 
@@ -195,8 +197,6 @@ struct Summary {
     return static_cast<std::size_t>(std::count_if(ratios.begin(), ratios.end(), holds));
   }
 };
-
-bool is_above(double ratio) { return ratio > kAllowedRatio; }
 
 /// Prints the rows of random scenes above the ratio allowed, then how many there are.
 void report_random_scenes(double tolerance) {

@@ -56,8 +56,8 @@ constexpr double kShortestTrial = 2.0;
 constexpr long kMostTrialEvaluations = 50;
 
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
-/// series step, for a larger ring cannot be passed over, and where the way to the next kink is worth it: so many series
-/// steps; fewer where next to nothing rings.
+/// series step (after a larger ring the series may be the cheaper way, of which one step says too little), and where
+/// the way to the next kink is worth it: so many series steps; fewer where next to nothing rings.
 constexpr double kShortestPassing = 24.0, kMostRing = 2.2e-3, kPassingWay = 500.0, kNoRing = 1e-9;
 constexpr long kMostPassingEvaluations = 100;
 
