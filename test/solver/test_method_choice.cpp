@@ -191,6 +191,17 @@ TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
   EXPECT_TRUE(tries_after(32, choice));
 }
 
+TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
+  MethodChoice choice = rich();
+  choice.leave_contact();
+  choice.look_at(kSliding);
+  for (int i = 0; i < 6; ++i) {
+    choice.earn();
+    choice.settle_series(2.0, kFar);
+  }
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 24.0);
+}
+
 TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
   MethodChoice choice = rich();
   const ContactStates two = contacts_that({Slip::plus, Slip::plus});
