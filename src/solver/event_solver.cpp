@@ -346,21 +346,21 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
 /// Automatic: one by the method that is chosen.
 double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
   choice_.look_at(segment_.contacts);
-  StepBounds bounds{longest};
   if (choice_.may_pass_over()) {
     const double step = series_contact_step(drives);
     if (!choice_.starts_passing_over(step, longest, normal_force_change(segment_, std::min(step, longest)))) {
       choice_.earn();
       return step;
     }
-    bounds = choice_.passing_bounds(longest);
   } else if (choice_.starts_trial()) {
     implicit_.suggest(choice_.trial_length());
-    bounds = choice_.trial_bounds(longest);
+  } else if (choice_.asks_series()) {
+    choice_.learn(expand_contact(drives));
+    counts_.rhs_evaluations += segment_.order;
   }
   if (choice_.implicit()) {
     effort_before_ = effort();
-    const double step = implicit_contact_step(bounds, drives);
+    const double step = implicit_contact_step(choice_.bounds(longest), drives);
     if (step > 0.0) return step;
     settle(0.0, longest);
   }

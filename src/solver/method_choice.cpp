@@ -50,16 +50,28 @@ constexpr int kTrialAfter = 32, kTrialAfterRing = 6, kPaceKnown = 6;
 /// Implicit steps in a ring that do not pay before it is left to the series.
 constexpr int kMostLosses = 2;
 
-/// Shortest step worth trying, as a multiple of what the series go for a cost of 1, and most evaluations of the forces
-/// in the attempt.
-constexpr double kShortestTrial = 2.0;
-constexpr long kMostTrialEvaluations = 50;
+/// Evaluations of the forces after which an implicit step is given up: any, and a trial.
+constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 50;
 
-/// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
-/// series step (after a larger ring the series may be the cheaper way, of which one step says too little), and where
-/// the way to the next kink is worth it: so many series steps; fewer where next to nothing rings.
-constexpr double kShortestPassing = 24.0, kMostRing = 2.2e-3, kPassingWay = 500.0, kNoRing = 1e-9;
-constexpr long kMostPassingEvaluations = 100;
+/// Shortest trial, as a multiple of what the series go for a cost of 1.
+constexpr double kShortestTrial = 2.0;
+
+/// The same for a step that passes over a ring, where something sticks at the start and where nothing does. It is tried
+/// where the normal forces change by this share at most in a series step, and where the way to the next kink is worth
+/// it: so many series steps; fewer where next to nothing rings.
+constexpr double kShortestPassing = 24.0, kMostRing = 2e-2, kPassingWay = 500.0, kNoRing = 1e-9;
+constexpr long kMostPassingEvaluations = 100, kMostPassingSlidingEvaluations = 30;
+
+/// Implicit steps before the series are first asked how far they would go, and most from one such question to the next
+/// (as many as before the last one).
+constexpr int kFirstQuestion = 2, kMostUnasked = 32;
+
+/// How many times as far the series go by themselves as from the end of an implicit step, whose error makes the base
+/// ring; and the share of a difference learned so that is believed.
+constexpr double kUndisturbed = 1.25, kBelieved = 0.5;
+
+/// A contact sticks and none is in the tanh layer.
+bool sticks(std::size_t kind) { return kind >= kStick && kind < kInLayer; }
 
 std::size_t kind_of(const ContactStates& contacts) {
   int loaded = 0, stick = 0, in_layer = 0;
@@ -90,6 +102,8 @@ double MethodChoice::pace() const {
 
 void MethodChoice::leave_to_series(int steps) {
   implicit_ = false;
+  implicit_steps_ = 0;
+  next_question_ = kFirstQuestion;
   series_steps_ = 0;
   patience_ = steps;
 }
@@ -103,12 +117,9 @@ bool MethodChoice::starts_passing_over(double step, double longest, double chang
   const bool worth = change <= kMostRing && longest > (change <= kNoRing ? kShortestPassing : kPassingWay) * step;
   if (!worth || step == 0.0) return false;
   paces_[kind_] = {step / kKind[kind_].series, kPaceKnown};
-  implicit_ = passes_over_ = true;
+  implicit_ = true;
+  attempt_ = Attempt::passes_over;
   return true;
-}
-
-StepBounds MethodChoice::passing_bounds(double longest) const {
-  return {longest, kShortestPassing * pace(), kMostPassingEvaluations};
 }
 
 bool MethodChoice::starts_trial() {
@@ -117,15 +128,38 @@ bool MethodChoice::starts_trial() {
   // where events coincide the series go nowhere, and say nothing
   if (credit_ < needed || pace() == 0.0) return false;
   implicit_ = tried_ = true;
+  attempt_ = Attempt::trial;
   return true;
-}
-
-StepBounds MethodChoice::trial_bounds(double longest) const {
-  return {longest, kShortestTrial * pace(), kMostTrialEvaluations};
 }
 
 /// Twice the length that would pay.
 double MethodChoice::trial_length() const { return 2.0 * kKind[kind_].usual_implicit() * pace(); }
+
+StepBounds MethodChoice::bounds(double longest) const {
+  switch (attempt_) {
+    case Attempt::trial: return {longest, kShortestTrial * pace(), kMostTrialEvaluations};
+    case Attempt::passes_over:
+      return {longest, kShortestPassing * pace(),
+              sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations};
+    case Attempt::ordinary: break;
+  }
+  return {longest, 0.0, kMostEvaluations};
+}
+
+bool MethodChoice::asks_series() {
+  if (!implicit_ || implicit_steps_ < next_question_) return false;
+  next_question_ += std::min(next_question_, kMostUnasked);
+  return true;
+}
+
+/// Implicit steps that the series outrun lose their credit, and the series learn their pace when they go.
+void MethodChoice::learn(double step) {
+  const double way = kUndisturbed * step / kKind[kind_].series, before = pace();
+  if (!(way > before)) return;
+  const double now = before + kBelieved * (way - before);
+  paces_[kind_] = {now, std::max(paces_[kind_].steps, kPaceKnown)};
+  credit_ *= before / now;
+}
 
 void MethodChoice::earn() {
   ++series_steps_;
@@ -142,8 +176,9 @@ void MethodChoice::settle_series(double gone, double longest) {
 
 void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
   if (gone > 0.0) may_pass_over_ = false;
-  const bool passes_over = passes_over_;
-  passes_over_ = false;
+  const bool passes_over = attempt_ == Attempt::passes_over;
+  attempt_ = Attempt::ordinary;
+  ++implicit_steps_;
   if (passes_over && gone == 0.0) {  // what the question has cost says nothing about implicit steps
     leave_to_series(kTrialAfter);
     return;

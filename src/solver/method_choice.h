@@ -37,15 +37,19 @@ class MethodChoice {
   /// share `change`. True when it is worth trying: an implicit step is due then.
   bool starts_passing_over(double step, double longest, double change);
 
-  /// Bounds of that step.
-  StepBounds passing_bounds(double longest) const;
-
-  /// True when an implicit step is to be tried now: it is due then.
+  /// True when an implicit step is to be tried now: it is due then, and begins with the length `trial_length`.
   bool starts_trial();
-
-  /// Bounds of a trial, and the length that it begins with.
-  StepBounds trial_bounds(double longest) const;
   double trial_length() const;
+
+  /// Bounds of the implicit step that is due, of at most `longest`.
+  StepBounds bounds(double longest) const;
+
+  /// True when the series are to be asked before the implicit step that is due how far they would go: a ring in which
+  /// their pace has been learned may have decayed.
+  bool asks_series();
+
+  /// They would go `step`.
+  void learn(double step);
 
   /// The series are about to take a step in contact.
   void earn();
@@ -71,6 +75,9 @@ class MethodChoice {
 
   static constexpr std::size_t kKinds = 9;  ///< of contacts, by what a step costs (method_choice.cpp)
 
+  /// What the implicit step that is due is for.
+  enum class Attempt { ordinary, trial, passes_over };
+
   double pace() const;
   void leave_to_series(int steps);
 
@@ -78,13 +85,15 @@ class MethodChoice {
   std::array<Pace, kKinds> paces_;
   bool implicit_ = false;
   bool may_pass_over_ = true;
-  bool passes_over_ = false;  ///< the implicit step that is due is to pass over a ring
-  bool tried_ = false;        ///< a trial has been made
-  double credit_ = 0.0;       ///< what implicit steps may lose
-  int series_steps_ = 0;      ///< in this contact since the last implicit step
-  int patience_;              ///< of these, before an implicit step is tried
-  bool rings_ = false;        ///< no implicit step has paid since the base was made to ring
-  int losses_ = 0;            ///< implicit steps since then, or since it was last left to the series
+  Attempt attempt_ = Attempt::ordinary;
+  bool tried_ = false;      ///< a trial has been made
+  double credit_ = 0.0;     ///< what implicit steps may lose
+  int series_steps_ = 0;    ///< in this contact since the last implicit step
+  int patience_;            ///< of these, before an implicit step is tried
+  int implicit_steps_ = 0;  ///< since the series went last
+  int next_question_;       ///< of these, before the series are asked how far they would go
+  bool rings_ = false;      ///< no implicit step has paid since the base was made to ring
+  int losses_ = 0;          ///< implicit steps since then, or since it was last left to the series
 };
 
 }  // namespace vibratory_alignment

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <utility>
+#include <vector>
 
 #include "solver/method_choice.h"
 
@@ -113,9 +115,19 @@ TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
 TEST(MethodChoice, a_trial_has_twice_the_length_that_would_pay) {
   MethodChoice choice = rich();
   EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
-  EXPECT_DOUBLE_EQ(choice.trial_bounds(kFar).shortest, 2.0);
-  EXPECT_EQ(choice.trial_bounds(kFar).longest, kFar);
-  EXPECT_EQ(choice.trial_bounds(kFar).evaluations, 50);
+}
+
+TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
+  MethodChoice choice;
+  ASSERT_TRUE(tries_after(83, choice));
+  EXPECT_EQ(choice.bounds(kFar).longest, kFar);
+  EXPECT_DOUBLE_EQ(choice.bounds(kFar).shortest, 2.0);
+  EXPECT_EQ(choice.bounds(kFar).evaluations, 50);
+  choice.settle_implicit(56.0, kFar, kEffort);
+  ASSERT_TRUE(choice.implicit());
+  EXPECT_EQ(choice.bounds(kFar).longest, kFar);
+  EXPECT_EQ(choice.bounds(kFar).shortest, 0.0);
+  EXPECT_EQ(choice.bounds(kFar).evaluations, 130);
 }
 
 // A series step that costs s and goes 1 has the pace 1/s; a trial of a usual implicit step of cost c is 2 c/s long.
@@ -182,6 +194,45 @@ TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
   choice.settle_implicit(1.0, kFar, kEffort);
   choice.settle_implicit(6.0, kFar, kEffort);
   EXPECT_EQ(steps_until_dropped(choice), 11);  // 54.96/5
+}
+
+TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
+  MethodChoice choice;
+  EXPECT_FALSE(choice.asks_series());
+  choice = rich();  // after one implicit step
+  std::vector<int> asked;
+  for (int steps = 1; steps < 200; ++steps) {
+    if (choice.asks_series()) asked.push_back(steps);
+    choice.settle_implicit(6.0, kFar, kEffort);
+  }
+  EXPECT_EQ(asked, (std::vector<int>{2, 4, 8, 16, 32, 64, 96, 128, 160, 192}));
+}
+
+// They would go 1.25 x 8 = 10, of which half is believed: 1 + (10 - 1)/2.
+TEST(MethodChoice, a_faster_pace_of_the_series_is_learned_and_costs_credit) {
+  MethodChoice choice = rich();
+  choice.learn(8.0);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 12.0);
+  // a step that costs 6 and goes 5.5 series steps loses 5 of the 59.96/5.5 that are left
+  int steps = 0;
+  for (; choice.implicit(); ++steps) choice.settle_implicit(5.5, kFar, kEffort);
+  EXPECT_EQ(steps, 3);
+}
+
+TEST(MethodChoice, a_slower_pace_is_only_learned_from_steps_of_the_series) {
+  MethodChoice choice = rich();
+  choice.learn(0.7);  // x 1.25 < 1
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+  EXPECT_EQ(steps_until_dropped(choice), 12);
+}
+
+TEST(MethodChoice, what_is_learned_of_one_law_is_of_that_law) {
+  MethodChoice choice = rich();
+  choice.look_at(contacts_that({Slip::stick}));
+  choice.learn(12.0);  // 1.25 x 12/1.5 = 10
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 2.0 * 8.16);
+  choice.look_at(kSliding);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
 }
 
 TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
@@ -255,18 +306,33 @@ TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_where_it_is_small_and_the_way_is_long) {
-  EXPECT_TRUE(fresh().starts_passing_over(1.0, 501.0, 2.1e-3));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 501.0, 2.3e-3));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 499.0, 2.1e-3));
+  EXPECT_TRUE(fresh().starts_passing_over(1.0, 501.0, 1.9e-2));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 501.0, 2.1e-2));
+  EXPECT_FALSE(fresh().starts_passing_over(1.0, 499.0, 1.9e-2));
   EXPECT_TRUE(fresh().starts_passing_over(1.0, 25.0, 1e-10));
   EXPECT_FALSE(fresh().starts_passing_over(1.0, 23.0, 1e-10));
   EXPECT_FALSE(fresh().starts_passing_over(0.0, kFar, 1e-10));
-  MethodChoice choice = fresh();
-  choice.starts_passing_over(1.0, 501.0, 1e-3);
-  EXPECT_TRUE(choice.implicit());
-  EXPECT_DOUBLE_EQ(choice.passing_bounds(501.0).shortest, 24.0);
-  EXPECT_EQ(choice.passing_bounds(501.0).longest, 501.0);
-  EXPECT_EQ(choice.passing_bounds(501.0).evaluations, 100);
+}
+
+TEST(MethodChoice, a_ring_is_passed_over_by_a_long_step_or_soon_given_up) {
+  MethodChoice sliding = fresh();
+  ASSERT_TRUE(sliding.starts_passing_over(1.0, 501.0, 1e-3));
+  EXPECT_DOUBLE_EQ(sliding.bounds(501.0).shortest, 24.0);
+  const std::pair<ContactStates, long> most_evaluations[] = {{contacts_that({Slip::plus}), 30},
+                                                             {contacts_that({Slip::plus, Slip::minus}), 30},
+                                                             {contacts_that({Slip::stick}), 100},
+                                                             {contacts_that({Slip::stick, Slip::plus}), 100},
+                                                             {contacts_that({Slip::stick, Slip::stick}), 100},
+                                                             {contacts_that({Slip::regularized}), 30},
+                                                             {contacts_that({Slip::regularized, Slip::stick}), 30}};
+  for (const auto& [contacts, evaluations] : most_evaluations) {
+    MethodChoice choice;
+    choice.look_at(contacts);
+    ASSERT_TRUE(choice.starts_passing_over(6.0, 3001.0, 1e-3));
+    EXPECT_TRUE(choice.implicit());
+    EXPECT_EQ(choice.bounds(3001.0).longest, 3001.0);
+    EXPECT_EQ(choice.bounds(3001.0).evaluations, evaluations);
+  }
 }
 
 TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
