@@ -67,8 +67,9 @@ constexpr long kMostPassingEvaluations = 100, kMostPassingSlidingEvaluations = 3
 constexpr int kFirstQuestion = 2, kMostUnasked = 32;
 
 /// How many times as far the series go by themselves as from the end of an implicit step, whose error makes the base
-/// ring; and the share of a difference learned so that is believed.
-constexpr double kUndisturbed = 1.25, kBelieved = 0.5;
+/// ring; the share of a difference learned so that is believed; and the most that credit earned by the slower pace
+/// loses: where paces change all the time, it was earned by the pace of its time.
+constexpr double kUndisturbed = 1.25, kBelieved = 0.5, kMostForfeit = 10.0;
 
 /// A contact sticks and none is in the tanh layer.
 bool sticks(std::size_t kind) { return kind >= kStick && kind < kInLayer; }
@@ -158,7 +159,7 @@ void MethodChoice::learn(double step) {
   if (!(way > before)) return;
   const double now = before + kBelieved * (way - before);
   paces_[kind_] = {now, std::max(paces_[kind_].steps, kPaceKnown)};
-  credit_ *= before / now;
+  credit_ -= std::min(credit_ * (1.0 - before / now), kMostForfeit);
 }
 
 void MethodChoice::earn() {

@@ -208,15 +208,22 @@ TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
   EXPECT_EQ(asked, (std::vector<int>{2, 4, 8, 16, 32, 64, 96, 128, 160, 192}));
 }
 
-// They would go 1.25 x 8 = 10, of which half is believed: 1 + (10 - 1)/2.
-TEST(MethodChoice, a_faster_pace_of_the_series_is_learned_and_costs_credit) {
-  MethodChoice choice = rich();
-  choice.learn(8.0);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 12.0);
-  // a step that costs 6 and goes 5.5 series steps loses 5 of the 59.96/5.5 that are left
+/// Implicit steps until they are given up, of which each loses 5 at this pace.
+int steps_at_a_loss(MethodChoice& choice, double pace) {
   int steps = 0;
-  for (; choice.implicit(); ++steps) choice.settle_implicit(5.5, kFar, kEffort);
-  EXPECT_EQ(steps, 3);
+  for (; choice.implicit(); ++steps) choice.settle_implicit(pace, kFar, kEffort);
+  return steps;
+}
+
+// They would go 1.25 x 8 = 10, of which half is believed: 1 + (10 - 1)/2. The credit shrinks by as much, by 10 at most.
+TEST(MethodChoice, a_faster_pace_of_the_series_is_learned_and_costs_credit) {
+  MethodChoice faster = rich(), little_faster = rich();
+  faster.learn(8.0);
+  EXPECT_DOUBLE_EQ(faster.trial_length(), 5.5 * 12.0);
+  EXPECT_EQ(steps_at_a_loss(faster, 5.5), 10);  // 49.96/5
+  little_faster.learn(1.0);
+  EXPECT_DOUBLE_EQ(little_faster.trial_length(), 1.125 * 12.0);
+  EXPECT_EQ(steps_at_a_loss(little_faster, 1.125), 11);  // 59.96/1.125/5
 }
 
 TEST(MethodChoice, a_slower_pace_is_only_learned_from_steps_of_the_series) {
