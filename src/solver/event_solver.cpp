@@ -352,7 +352,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
       choice_.earn();
       return step;
     }
-  } else if (choice_.starts_trial()) {
+  } else if (choice_.starts_trial(longest)) {
     implicit_.suggest(choice_.trial_length());
   } else if (choice_.asks_series()) {
     choice_.learn(expand_contact(drives));

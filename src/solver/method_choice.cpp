@@ -40,8 +40,9 @@ constexpr std::array<Kind, 9> kKind = {{{1.0, 0.15, 5.0, 0},
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
 constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 
-/// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones.
-constexpr double kFirstTrial = 1.65, kLaterTrial = 0.8;
+/// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones; and what the series have
+/// to go for, at least, on the way to the next kink for the first one in the tanh layer to be no dearer than those.
+constexpr double kFirstTrial = 1.65, kLaterTrial = 0.8, kLongWay = 200.0;
 
 /// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
 /// until their pace is known.
@@ -123,9 +124,10 @@ bool MethodChoice::starts_passing_over(double step, double longest, double chang
   return true;
 }
 
-bool MethodChoice::starts_trial() {
+bool MethodChoice::starts_trial(double longest) {
   if (implicit_ || series_steps_ < patience_) return false;
-  const double needed = (tried_ ? kLaterTrial : kFirstTrial) * kKind[kind_].usual_implicit();
+  const bool soon = tried_ || (kind_ >= kInLayer && longest > kLongWay * pace());
+  const double needed = (soon ? kLaterTrial : kFirstTrial) * kKind[kind_].usual_implicit();
   // where events coincide the series go nowhere, and say nothing
   if (credit_ < needed || pace() == 0.0) return false;
   implicit_ = tried_ = true;

@@ -37,8 +37,9 @@ class MethodChoice {
   /// share `change`. True when it is worth trying: an implicit step is due then.
   bool starts_passing_over(double step, double longest, double change);
 
-  /// True when an implicit step is to be tried now: it is due then, and begins with the length `trial_length`.
-  bool starts_trial();
+  /// True when an implicit step is to be tried now, where it may be `longest`: it is due then, and begins with the
+  /// length `trial_length`.
+  bool starts_trial(double longest);
   double trial_length() const;
 
   /// Bounds of the implicit step that is due, of at most `longest`.

@@ -30,19 +30,19 @@ ContactStates contacts_that(std::initializer_list<Slip> slips) {
 const ContactStates kSliding = contacts_that({Slip::plus});
 
 /// A series step of such contacts that goes 1; true when an implicit one was tried instead.
-bool tries(MethodChoice& choice, const ContactStates& contacts = kSliding) {
+bool tries(MethodChoice& choice, const ContactStates& contacts = kSliding, double longest = kFar) {
   choice.look_at(contacts);
-  if (choice.starts_trial()) return true;
+  if (choice.starts_trial(longest)) return true;
   choice.earn();
   choice.settle_series(1.0, kFar);
   return false;
 }
 
 /// So many series steps of length 1; true when an implicit step is tried after the last of them and not before.
-bool tries_after(int steps, MethodChoice& choice, const ContactStates& contacts = kSliding) {
+bool tries_after(int steps, MethodChoice& choice, const ContactStates& contacts = kSliding, double longest = kFar) {
   for (int i = 0; i < steps; ++i)
-    if (tries(choice, contacts)) return false;
-  return tries(choice, contacts);
+    if (tries(choice, contacts, longest)) return false;
+  return tries(choice, contacts, longest);
 }
 
 /// A choice whose first trial has just paid 50.
@@ -83,6 +83,14 @@ TEST(MethodChoice, the_first_trial_has_to_be_earned) {
   MethodChoice choice;
   // 0.12 n >= 1.65 x 6
   EXPECT_TRUE(tries_after(83, choice));
+}
+
+// A series step that costs 1.2 adds 0.144; 200 of that cost go 166.7.
+TEST(MethodChoice, the_first_trial_in_the_tanh_layer_has_to_be_earned_twice_where_the_way_is_short) {
+  const ContactStates layer = contacts_that({Slip::regularized});
+  MethodChoice near, far;
+  EXPECT_TRUE(tries_after(131, near, layer, 166.0));  // 1.65 x 11.4
+  EXPECT_TRUE(tries_after(64, far, layer, 167.0));    // 0.8 x 11.4
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
@@ -163,7 +171,7 @@ TEST(MethodChoice, nothing_is_tried_where_the_series_have_gone_nowhere) {
   MethodChoice choice;
   for (int i = 0; i < 200; ++i) {
     choice.look_at(kSliding);
-    EXPECT_FALSE(choice.starts_trial());
+    EXPECT_FALSE(choice.starts_trial(kFar));
     choice.earn();
     choice.settle_series(0.0, kFar);
   }
