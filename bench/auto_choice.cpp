@@ -4,8 +4,8 @@
 // part in lasting contact over the same: shaken across and along, it sticks and slips twenty times and never leaves the
 // base; and shaken by forces with kinks, after each of which the base rings, with all laws of friction, over frequency,
 // stiffness and damping ratio. Then random scenes of the hunt (test/hunt), of which the table has only those above the
-// ratio allowed. The three solvers take turns, so
-// that what else the computer does meets all of them alike; a time is the median of the turns.
+// ratio allowed. The three solvers take turns, so that what else the computer does meets all of them alike; a time is
+// the median of the turns.
 // `> step limit`: more than a million steps, a hundred thousand in random scenes. **: the ratio is above 1.3.
 // Usage: auto_choice TOLERANCE SCENE_FILE ...
 #include <algorithm>

@@ -355,7 +355,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
   } else if (choice_.starts_trial(longest)) {
     implicit_.suggest(choice_.trial_length());
   } else if (choice_.asks_series()) {
-    choice_.learn(expand_contact(drives));
+    choice_.learn_pace(expand_contact(drives));
     counts_.rhs_evaluations += segment_.order;
   }
   if (choice_.implicit()) {

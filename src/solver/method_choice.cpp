@@ -156,7 +156,7 @@ bool MethodChoice::asks_series() {
 }
 
 /// Implicit steps that the series outrun lose their credit, and the series learn their pace when they go.
-void MethodChoice::learn(double step) {
+void MethodChoice::learn_pace(double step) {
   const double way = kUndisturbed * step / kKind[kind_].series, before = pace();
   if (!(way > before)) return;
   const double now = before + kBelieved * (way - before);

@@ -49,8 +49,8 @@ class MethodChoice {
   /// their pace has been learned may have decayed.
   bool asks_series();
 
-  /// They would go `step`.
-  void learn(double step);
+  /// They would go `step`: where that is farther than their pace, it is learned, and the credit shrinks.
+  void learn_pace(double step);
 
   /// The series are about to take a step in contact.
   void earn();

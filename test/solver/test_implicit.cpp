@@ -193,6 +193,24 @@ TEST(Implicit, automatic_choice_leaves_rings_after_kinks_to_the_series) {
   }
 }
 
+// In the tanh layer a series step on a stiff base goes a small part of the way to the next kink.
+TEST(Implicit, automatic_choice_tries_soon_in_the_tanh_layer_where_the_way_to_a_kink_is_long) {
+  Scene scene = pressed(3e6, 1.0);
+  scene.excitations[0].waveform = Waveform::triangle;
+  scene.excitations[0].amplitude = 0.05;
+  scene.excitations[0].frequency = 5.0;
+  scene.friction = Friction{0.3, 0.2};
+  scene.solver.name = "auto";
+  scene.solver.tolerance = 1e-4;
+  int by_series = 0, implicit = 0;
+  test::run(scene, [&](const Segment& g) {
+    implicit += g.coarse;
+    by_series += implicit == 0;
+  });
+  EXPECT_GT(implicit, 0);
+  EXPECT_LT(by_series, 100);  // 0.8 x 11.4/0.144 = 64, 131 where the first trial has to be earned twice
+}
+
 // A part exactly at rest, whose first series has no end, is shaken from some time on.
 TEST(Implicit, automatic_choice_knows_steps_after_a_rest) {
   Scene scene = test::scene_of(test::plain, {"gripper.anchor={x: 0.25, phi: 0.0}", "initial.x=0.25",

@@ -54,10 +54,10 @@ MethodChoice rich() {
   return choice;
 }
 
-/// Implicit steps that go 1 each until they are given up.
-int steps_until_dropped(MethodChoice& choice) {
+/// Implicit steps until they are given up, each of which goes as far as a series step of this pace and so loses 5.
+int steps_until_dropped(MethodChoice& choice, double pace = 1.0) {
   int steps = 0;
-  for (; choice.implicit(); ++steps) choice.settle_implicit(1.0, kFar, kEffort);
+  for (; choice.implicit(); ++steps) choice.settle_implicit(pace, kFar, kEffort);
   return steps;
 }
 
@@ -216,27 +216,20 @@ TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
   EXPECT_EQ(asked, (std::vector<int>{2, 4, 8, 16, 32, 64, 96, 128, 160, 192}));
 }
 
-/// Implicit steps until they are given up, of which each loses 5 at this pace.
-int steps_at_a_loss(MethodChoice& choice, double pace) {
-  int steps = 0;
-  for (; choice.implicit(); ++steps) choice.settle_implicit(pace, kFar, kEffort);
-  return steps;
-}
-
 // They would go 1.25 x 8 = 10, of which half is believed: 1 + (10 - 1)/2. The credit shrinks by as much, by 10 at most.
 TEST(MethodChoice, a_faster_pace_of_the_series_is_learned_and_costs_credit) {
   MethodChoice faster = rich(), little_faster = rich();
-  faster.learn(8.0);
+  faster.learn_pace(8.0);
   EXPECT_DOUBLE_EQ(faster.trial_length(), 5.5 * 12.0);
-  EXPECT_EQ(steps_at_a_loss(faster, 5.5), 10);  // 49.96/5
-  little_faster.learn(1.0);
+  EXPECT_EQ(steps_until_dropped(faster, 5.5), 10);  // 49.96/5
+  little_faster.learn_pace(1.0);
   EXPECT_DOUBLE_EQ(little_faster.trial_length(), 1.125 * 12.0);
-  EXPECT_EQ(steps_at_a_loss(little_faster, 1.125), 11);  // 59.96/1.125/5
+  EXPECT_EQ(steps_until_dropped(little_faster, 1.125), 11);  // 59.96/1.125/5
 }
 
 TEST(MethodChoice, a_slower_pace_is_only_learned_from_steps_of_the_series) {
   MethodChoice choice = rich();
-  choice.learn(0.7);  // x 1.25 < 1
+  choice.learn_pace(0.7);  // x 1.25 < 1
   EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
   EXPECT_EQ(steps_until_dropped(choice), 12);
 }
@@ -244,7 +237,7 @@ TEST(MethodChoice, a_slower_pace_is_only_learned_from_steps_of_the_series) {
 TEST(MethodChoice, what_is_learned_of_one_law_is_of_that_law) {
   MethodChoice choice = rich();
   choice.look_at(contacts_that({Slip::stick}));
-  choice.learn(12.0);  // 1.25 x 12/1.5 = 10
+  choice.learn_pace(12.0);  // 1.25 x 12/1.5 = 10
   EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 2.0 * 8.16);
   choice.look_at(kSliding);
   EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
