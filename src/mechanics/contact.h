@@ -7,20 +7,21 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 namespace vibratory_alignment {
 
-enum class Site { a1, a2, b1, b2, b1_floor, b2_floor };
+enum class Site : std::uint8_t { a1, a2, b1, b2, b1_floor, b2_floor };
 constexpr int kSiteCount = 6;
 
-enum class Face { none, bottom, right_side, left_side, top, right_wall, left_wall, floor };
+enum class Face : std::uint8_t { none, bottom, right_side, left_side, top, right_wall, left_wall, floor };
 
 /// outside: the point is not in the other body. unloaded: the contact lasts (depth > 0) but carries no force.
 /// loaded: N > 0. free: inside the other body without contact (entered through a face the scene does not call for).
-enum class Phase { outside, unloaded, loaded, free };
+enum class Phase : std::uint8_t { outside, unloaded, loaded, free };
 
 /// Sliding direction of a loaded contact, the sign of V; `none` without friction, `regularized` for the tanh law.
-enum class Slip { none, plus, minus, stick, regularized };
+enum class Slip : std::uint8_t { none, plus, minus, stick, regularized };
 
 struct ContactState {
   Phase phase = Phase::outside;

@@ -41,7 +41,7 @@ Double2 elapsed(const Instant& from, const Instant& to) {
 
 /// The angle in [0, 2 pi).
 double wrap(double angle) {
-  angle = std::fmod(angle, kTwoPiHigh);
+  if (!(std::abs(angle) < kTwoPiHigh)) angle = std::fmod(angle, kTwoPiHigh);
   return angle < 0.0 ? angle + kTwoPiHigh : angle;
 }
 

@@ -9,8 +9,8 @@ namespace vibratory_alignment {
 /// A condition c1 p1 + c2 p2 + c0 > 0 on the coordinates of a site's point (body coordinates of an edge, position of a
 /// corner), and the face that is crossed where it becomes true.
 struct RegionCondition {
-  double c1 = 0.0, c2 = 0.0, c0 = 0.0;
-  Face face = Face::none;
+  double c1, c2, c0;
+  Face face;
 
   double value(const Vec2& p) const { return c1 * p.x + c2 * p.y + c0; }
 };

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ namespace vibratory_alignment {
 
 // In scene_loader.cpp the words for these stand in the same order.
 enum class Units { dimensionless, si };
-enum class Direction { x, y, phi };
+enum class Direction : std::uint8_t { x, y, phi };
 enum class Waveform { sine, square, triangle, chirp };
 
 /// The three physical scales from which all others follow.

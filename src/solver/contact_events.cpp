@@ -23,6 +23,9 @@ constexpr double kLengthRounding = 3e-16;
 /// One this large is not, nor is a sliding acceleration relative to that of the part.
 constexpr double kSurelySliding = 1e-8;
 
+/// Times are compared with that of what has been found only up to rounding.
+constexpr double kSurelyLater = 1.0 + 1e-12;
+
 /// Largest correction of the time of an event, as a share of it, and how often it is corrected.
 constexpr double kMostCorrection = 1e-3;
 constexpr int kCorrections = 3;
@@ -33,18 +36,19 @@ constexpr double kRestAllowance = 10.0;
 class Search {
  public:
   Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries,
-         const DriveForms& drives)
+         const DriveForms& drives, FoundEvents& found)
       : system_(system),
         series_(series),
         segment_(segment),
         pins_(pins),
         recoveries_(recoveries),
         order_(segment.order),
-        duration_(segment.duration) {
+        duration_(segment.duration),
+        found_(found) {
     bound_motion(drives);
   }
 
-  FoundEvents run(const OutcomeGuards& outcomes) {
+  void run(const OutcomeGuards& outcomes) {
     int index = 0;
     for (int i = 0, end = site_end(system_); i < end; ++i) {
       const auto site = static_cast<Site>(i);
@@ -58,7 +62,6 @@ class Search {
     }
     if (outcomes.aligned) guard_depth(EventKind::aligned, system_.aligned_depth, true);
     if (outcomes.inserted) guard_depth(EventKind::inserted, system_.inserted_depth, false);
-    return found_;
   }
 
  private:
@@ -87,17 +90,29 @@ class Search {
       const double most = std::abs(form.constant) + std::abs(form.slope) * duration_ + std::abs(form.amplitude);
       (drives.direction[i] == Direction::x ? force_x : drives.direction[i] == Direction::y ? force_y : moment) += most;
     }
-    const double ax = most_acceleration(system_.x, segment_.x, segment_.vx, force_x);
-    const double ay = most_acceleration(system_.y, segment_.y, segment_.vy, force_y);
-    turn_acceleration_ = most_acceleration(system_.phi, segment_.phi, segment_.omega, moment);
+    const Load3 terms = acceleration_terms();
+    const double ax = most_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x);
+    const double ay = most_acceleration(system_.y, segment_.y, segment_.vy, force_y, terms.y);
+    turn_acceleration_ = most_acceleration(system_.phi, segment_.phi, segment_.omega, moment, terms.phi);
     acceleration_ = ax + ay;
     speed_ = std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + acceleration_ * duration_;
     turn_rate_ = std::abs(segment_.omega[0]) + turn_acceleration_ * duration_;
   }
 
+  /// Sums of the absolute values of the terms of the accelerations' series.
+  Load3 acceleration_terms() const {
+    Pair sum{};
+    double turn = 0.0, power = order_;
+    for (int k = order_; k >= 1; --k, power -= 1.0) {
+      sum = sum * duration_ + power * Pair{std::abs(segment_.vx[k]), std::abs(segment_.vy[k])};
+      turn = turn * duration_ + power * std::abs(segment_.omega[k]);
+    }
+    return {sum[0], sum[1], turn};
+  }
+
   /// Largest acceleration of an axis: in flight from its equation, where its spring and damper act on at most what the
-  /// acceleration itself makes of the start; else from the absolute values of its series' terms.
-  double most_acceleration(const Axis& axis, const Series& q, const Series& v, double force) const {
+  /// acceleration itself makes of the start; else the sum of its series' terms.
+  double most_acceleration(const Axis& axis, const Series& q, const Series& v, double force, double terms) const {
     if (!axis.moves) return 0.0;
     const double h = duration_, speed = std::abs(v[0]);
     const double feedback = axis.inverse_inertia * (0.5 * axis.stiffness * h * h + axis.damping * h);
@@ -105,9 +120,7 @@ class Search {
       const double start = force + axis.stiffness * (std::abs(q[0] - axis.anchor) + speed * h) + axis.damping * speed;
       return axis.inverse_inertia * start / (1.0 - feedback);
     }
-    double sum = 0.0, power = order_;
-    for (int k = order_; k >= 1; --k, power -= 1.0) sum = sum * h + power * std::abs(v[k]);
-    return sum;
+    return terms;
   }
 
   /// A site's point at the segment's start with its rate, and a bound on its second derivative during the segment.
@@ -192,41 +205,77 @@ class Search {
 
   void guard_loaded(Site site, int loaded) {
     const ContactSeries& contact = segment_.loaded[loaded];
-    const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
+    // friction's events come before most releases, which then need not be searched for
+    const SlipTimes slips = find_slips(site, loaded);
+    double before = found_.count > 0 ? found_.time : kNoRoot;
+    for (const double time : slips.time)
+      if (time != kNoRoot && (before == kNoRoot || time < before)) before = time;
+    const int zeros = zeros_of(contact.normal_force, pins_[static_cast<std::size_t>(site)].normal);
+    offer(fall_before(before, contact.normal_force, order_, zeros), EventKind::release, site);
+    guard_limits(site, segment_.contacts[static_cast<std::size_t>(site)].face);
+    for (const double time : slips.time) offer(time, slips.kind, site);
+  }
+
+  /// first_fall() on the segment, unless it is surely later than the time `before`, if there is one.
+  double fall_before(double before, const Series& g, int order, int zeros) const {
+    if (before != kNoRoot && zeros == 0 && stays_above_zero(g, order, kSurelyLater * before)) return kNoRoot;
+    return first_fall(g, order, duration_, zeros);
+  }
+
+  /// When friction or sliding of a contact reaches a limit, in the direction of t and against it.
+  struct SlipTimes {
+    EventKind kind = EventKind::slip;
+    double time[2] = {kNoRoot, kNoRoot};
+  };
+
+  SlipTimes find_slips(Site site, int loaded) {
+    const ContactSeries& contact = segment_.loaded[loaded];
+    const Slip slip = segment_.contacts[static_cast<std::size_t>(site)].slip;
     const SitePins& pins = pins_[static_cast<std::size_t>(site)];
-    const int zeros = zeros_of(contact.normal_force, pins.normal);
-    offer(first_fall(contact.normal_force, order_, duration_, zeros), EventKind::release, site);
-    guard_limits(site, state.face);
-    const double f = system_.friction;
+    const double f = system_.friction, layer = system_.tanh_saturation * system_.regularization;
+    SlipTimes times;
     Series g;
-    switch (state.slip) {
+    switch (slip) {
       case Slip::none: break;
       case Slip::plus:
       case Slip::minus: {
-        const double sign = state.slip == Slip::plus ? 1.0 : -1.0;
+        times.kind = EventKind::slip_reversal;
+        const double sign = slip == Slip::plus ? 1.0 : -1.0;
         if (pins.slip > MotionSeries::kHeldPowers || stays_at_rest(loaded)) break;
         for (int k = 0; k <= order_; ++k) g[k] = sign * contact.slip_velocity[k];
-        g[0] -= system_.tanh_saturation * system_.regularization;
-        offer(first_fall(g, order_, duration_, pins.slip), EventKind::slip_reversal, site);
+        g[0] -= layer;
+        times.time[0] = first_fall(g, order_, duration_, pins.slip);
         break;
       }
       case Slip::stick:
-        for (const double sign : {1.0, -1.0}) {
+        for (int i = 0; i < 2; ++i) {
+          const double sign = i == 0 ? 1.0 : -1.0;
           for (int k = 0; k < order_; ++k) g[k] = f * contact.normal_force[k] - sign * contact.tangential_force[k];
-          const int zeros = sign > 0.0 ? pins.hold_plus : pins.hold_minus;
+          const int zeros = i == 0 ? pins.hold_plus : pins.hold_minus;
           if (zeros < MotionSeries::kHeldPowers)
-            offer(first_fall(g, order_ - 1, duration_, zeros), EventKind::slip, site);
+            times.time[i] = fall_before(i == 0 ? kNoRoot : times.time[0], g, order_ - 1, zeros);
         }
         break;
-      case Slip::regularized:
-        for (const double sign : {1.0, -1.0}) {
-          for (int k = 0; k <= order_; ++k) g[k] = -sign * contact.slip_velocity[k];
-          g[0] += system_.tanh_saturation * system_.regularization;
-          const bool pinned = pins.slip > 0 && sign * contact.slip_velocity[0] > 0.0;
-          offer(first_fall(g, order_, duration_, pinned ? pins.slip : 0), EventKind::slip, site);
+      case Slip::regularized: {
+        const Series& v = contact.slip_velocity;
+        if (largest_size(v) < layer) break;
+        for (int i = 0; i < 2; ++i) {
+          const double sign = i == 0 ? 1.0 : -1.0;
+          for (int k = 0; k <= order_; ++k) g[k] = -sign * v[k];
+          g[0] += layer;
+          times.time[i] = first_fall(g, order_, duration_, pins.slip > 0 && sign * v[0] > 0.0 ? pins.slip : 0);
         }
         break;
+      }
     }
+    return times;
+  }
+
+  /// Largest absolute value of a series during the segment, at most; not a number where a term is none.
+  double largest_size(const Series& series) const {
+    double size = 0.0;
+    for (int k = order_; k >= 0; --k) size = size * duration_ + std::abs(series[k]);
+    return size;
   }
 
   /// k(n) and h(n) that turn with the part fall off more slowly in the series than the motion by which the step is
@@ -344,20 +393,21 @@ class Search {
 
   /// Both lower corners below `depth` and, if asked, between the walls (a corner that presses into a wall is).
   void guard_depth(EventKind kind, double depth, bool between_walls) {
-    const double l = system_.slot_half_width;
-    const RegionCondition asked[] = {
-        {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
     const auto count = [&](Site site) { return between_walls && !presses_wall(site) ? 3 : 1; };
+    const auto asked = [&](int j) {
+      return j == 0 ? RegionCondition{0.0, -1.0, -depth, Face::none}
+                    : RegionCondition{j == 1 ? 1.0 : -1.0, 0.0, system_.slot_half_width, Face::none};
+    };
     // mostly one of them surely fails throughout
     for (const Site site : {Site::b1, Site::b2}) {
       const PointBound bound = bound_point(site);
       for (int j = 0; j < count(site); ++j)
-        if (largest(asked[j], bound, 1.0, false) < 0.0) return;
+        if (largest(asked(j), bound, 1.0, false) < 0.0) return;
     }
     Conditions conditions;
     conditions.count = 0;
     for (const Site site : {Site::b1, Site::b2})
-      for (int j = 0; j < count(site); ++j) conditions.g[conditions.count++] = condition_series(asked[j], site);
+      for (int j = 0; j < count(site); ++j) conditions.g[conditions.count++] = condition_series(asked(j), site);
     offer(first_entry(conditions, order_, duration_).time, kind, Site::b1);
   }
 
@@ -371,14 +421,15 @@ class Search {
   double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
   bool noise_known_ = false;
   SeriesNoise noise_;
-  FoundEvents found_;
+  FoundEvents& found_;
 };
 
 }  // namespace
 
-FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
-                        const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives) {
-  return Search(system, series, segment, pins, recoveries, drives).run(outcomes);
+void find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
+                 const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives,
+                 FoundEvents& found) {
+  Search(system, series, segment, pins, recoveries, drives, found).run(outcomes);
 }
 
 }  // namespace vibratory_alignment

@@ -18,11 +18,17 @@ struct FoundEvents {
   std::array<Event, kMaxEvents> events;
 
   static constexpr double kNoEvent = -1.0;
+
+  void clear() {
+    time = kNoEvent;
+    count = 0;
+    parts = false;
+  }
 };
 
-/// First event within [0, duration] of the segment, with all that coincide with it.
-[[gnu::noinline]] FoundEvents find_events(const System& system, MotionSeries& series, Segment& segment,
-                                          const Pins& pins, const Recoveries& recoveries, const OutcomeGuards& outcomes,
-                                          const DriveForms& drives);
+/// Adds the first event within [0, duration] of the segment to `found`, which has none, with all that coincide with it.
+[[gnu::noinline]] void find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
+                                   const Recoveries& recoveries, const OutcomeGuards& outcomes,
+                                   const DriveForms& drives, FoundEvents& found);
 
 }  // namespace vibratory_alignment

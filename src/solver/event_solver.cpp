@@ -72,13 +72,12 @@ constexpr double kPartAllowance = 10.0;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-DriveForms forms_at(const std::vector<Drive>& drives, const Instant& t) {
-  DriveForms forms;
+void set_forms(const std::vector<Drive>& drives, const Instant& t, DriveForms& forms) {
+  forms.count = 0;
   for (const Drive& drive : drives) {
     forms.direction[static_cast<std::size_t>(forms.count)] = drive.direction();
     forms.form[static_cast<std::size_t>(forms.count++)] = drive.form_at(t);
   }
-  return forms;
 }
 
 double time_to_kink(const std::vector<Drive>& drives, const Instant& t) {
@@ -258,7 +257,7 @@ void EventSolver::go_to_end() {
   if (mode_changes_) {
     mode_ = next_mode_;
   } else if (segment_.duration > 0.0) {
-    mode_.pins = {};
+    mode_.pins.fill(SitePins{});
   }
   if (drives_change_) drives_ = next_drives_;
   drives_change_ = false;
@@ -406,22 +405,25 @@ const Segment& EventSolver::advance(double limit) {
   if (started_) {
     go_to_end();
   } else {
-    mode_ = start_mode(system_, state_, forms_at(drives_, now_), friction_);
+    set_forms(drives_, now_, forms_);
+    forms_known_ = true;
+    mode_ = start_mode(system_, state_, forms_, friction_);
     started_ = true;
   }
   if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
 
-  if (!forms_known_) forms_ = forms_at(drives_, now_);
+  if (!forms_known_) set_forms(drives_, now_, forms_);
   forms_known_ = false;
   const DriveForms& drives = forms_;
   const double to_limit = std::max(0.0, limit - now_);
   const double to_kink = time_to_kink(drives_, now_);
   segment_.start = now_;
   segment_.contacts = mode_.contacts;
-  for (std::size_t i = 0; i < kSiteCount; ++i) {
-    segment_.contacts[i].base_deformation = mode_.recoveries[i].deformation;
-    segment_.contacts[i].recovery_rate = mode_.recoveries[i].rate;
-  }
+  if (system_.recovery)
+    for (std::size_t i = 0; i < kSiteCount; ++i) {
+      segment_.contacts[i].base_deformation = mode_.recoveries[i].deformation;
+      segment_.contacts[i].recovery_rate = mode_.recoveries[i].rate;
+    }
   const bool contact = any_loaded(mode_.contacts);
   if (contact) state_ = hold_sticking(system_, state_, mode_.contacts);
   segment_.begin = state_;
@@ -439,7 +441,8 @@ const Segment& EventSolver::advance(double limit) {
   }
 
   implicit_now_ = false;
-  FoundEvents found;
+  FoundEvents& found = found_;
+  found.clear();
   const double end = std::min(to_limit, to_kink);
   const bool leaps = !contact && leap(end, found);
   if (!leaps) {
@@ -463,8 +466,9 @@ const Segment& EventSolver::advance(double limit) {
       for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
         step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
     if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
-    for (const Recovery& recovery : mode_.recoveries)
-      if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
+    if (system_.recovery)
+      for (const Recovery& recovery : mode_.recoveries)
+        if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
     segment_.duration = step;
     if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
     // contacts that have been found to stick here, though they part within the step, hold for a part of it
@@ -479,7 +483,7 @@ const Segment& EventSolver::advance(double limit) {
       found.count = 1;
       found.events[0] = {EventKind::slip, first_sticking(mode_.contacts)};
     } else {
-      found = find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives);
+      find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
     }
     if (found.count > 0) {
       if (corrects && found.time > 0.0) found.time = first_crossing(found);
@@ -517,10 +521,10 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
   if (mode_changes_) next_mode_ = mode_;
   if (system_.recovery) recover(segment_.duration, next_mode_.recoveries);
   if (forms_known_) {
-    forms_ = forms_at(next_drives_, end);
+    set_forms(next_drives_, end, forms_);
     apply_events(system_, segment_, forms_, friction_, found, next_mode_);
   } else if (mode_changes_ && segment_.duration > 0.0) {
-    next_mode_.pins = {};
+    next_mode_.pins.fill(SitePins{});
   }
   for (int i = 0; i < found.count; ++i)
     segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
@@ -559,10 +563,12 @@ void EventSolver::forces_jump() {
   const Instant end = segment_.start + segment_.duration;
   if (!mode_changes_) {
     next_mode_ = mode_;
-    if (segment_.duration > 0.0) next_mode_.pins = {};
+    if (segment_.duration > 0.0) next_mode_.pins.fill(SitePins{});
     mode_changes_ = true;
   }
-  decide_friction_anew(system_, segment_, forms_at(next_drives_, end), friction_, next_mode_);
+  DriveForms forms;
+  set_forms(next_drives_, end, forms);
+  decide_friction_anew(system_, segment_, forms, friction_, next_mode_);
 }
 
 State state_at(const Segment& segment, double t) {

@@ -71,6 +71,7 @@ class EventSolver final : public Solver {
   MethodChoice choice_;           ///< automatic
   StepEffort effort_before_;      ///< automatic: until the present step
   Segment segment_;
+  FoundEvents found_;  ///< in the step that is being taken
 
   bool in_flight_ = false;  ///< flight_ is the present one
   Flight flight_;

@@ -32,12 +32,9 @@ void Flight::at(double t, State& state) const {
 Flight::Motion Flight::motion_at(double t, double end) const {
   Waves::Values waves;
   waves_.at(t, waves);
-  Motion motion;
-  at(t, waves, motion.state);
-  motion.x = x_.outlook(t, end, waves);
-  motion.y = y_.outlook(t, end, waves);
-  motion.phi = phi_.outlook(t, end, waves);
-  return motion;
+  State state;
+  at(t, waves, state);
+  return {state, x_.outlook(t, end, waves), y_.outlook(t, end, waves), phi_.outlook(t, end, waves)};
 }
 
 Load3 Flight::drive_at(double t) const {

@@ -15,6 +15,15 @@ void add_drive(const DriveForm& form, int order, Series& series) {
   if (form.amplitude == 0.0) return;
   // s' = (nu + rate t) c, c' = -(nu + rate t) s
   double s = form.amplitude * form.sin_phase, c = form.amplitude * form.cos_phase, s_before = 0.0, c_before = 0.0;
+  if (form.rate == 0.0) {
+    for (int k = 0; k <= order; ++k) {
+      series[k] += s;
+      const double frequency = kInverse[k + 1] * form.frequency, s_next = frequency * c;
+      c = -(frequency * s);
+      s = s_next;
+    }
+    return;
+  }
   for (int k = 0; k <= order; ++k) {
     series[k] += s;
     const double frequency = kInverse[k + 1] * form.frequency, rate = kInverse[k + 1] * form.rate;

@@ -122,8 +122,10 @@ class MotionSeries {
   bool expand_single_wide(Segment& segment);
   bool expand_any_single(Segment& segment);
   template <bool kEdge, bool kTurns>
+  bool expand_single_by_face(Segment& segment);
+  template <bool kEdge, bool kTurns, bool kLevel>
   bool expand_single_by_law(Segment& segment);
-  template <bool kEdge, bool kTurns, Law kLaw>
+  template <bool kEdge, bool kTurns, bool kLevel, Law kLaw>
   bool expand_single_of(Segment& segment);
 
   const System& system_;

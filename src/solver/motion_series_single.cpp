@@ -27,9 +27,10 @@ struct RightFactors {
 /// products of series whose factors are known when the forces of a power are asked for are summed together, for these
 /// forces and for the direction and the centre of the next but one power; what a power itself finds is added as its
 /// last term, by constant factors: the way from one velocity to the next, on which the powers wait for one another, is
-/// kept short. T of what sticks takes V' out: of what the accelerations without it make of V', and of what turning
-/// adds. False, with nothing but the start expanded, where V' has to be taken out twice or nothing can be held.
-template <bool kEdge, bool kTurns, MotionSeries::Law kLaw>
+/// kept short. n and t lie along the axes of the frame: kLevel, n along the second. T of what sticks takes V' out: of
+/// what the accelerations without it make of V', and of what turning adds. False, with nothing but the start expanded,
+/// where V' has to be taken out twice or nothing can be held.
+template <bool kEdge, bool kTurns, bool kLevel, MotionSeries::Law kLaw>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment) {
   constexpr bool kTanh = kLaw == Law::layer, kSticks = kLaw == Law::sticks, kOwnT = kTanh || kSticks;
   Contact& contact = contacts_[0];
@@ -39,6 +40,13 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   const ContactFrame& f = contact.frame;
   const double side = side_of(contact.site), l = side * system_.slot_half_width, beta = side * system_.half_width,
                b0 = system_.base_distance;
+  // c1 a + c2 b, where c is n or t, of which one component is zero
+  const auto along_n = [](double c1, double a, double c2, double b) { return kLevel ? c2 * b : c1 * a; };
+  const auto along_t = [](double c1, double a, double c2, double b) { return kLevel ? c1 * a : c2 * b; };
+  // ... or the force per unit of N
+  const auto along_push = [&](double c1, double a, double c2, double b) {
+    return kOwnT ? along_n(c1, a, c2, b) : c1 * a + c2 * b;
+  };
   const double depth_1 = f.sign * f.n1, depth_2 = f.sign * f.n2, slip_1 = -f.sign * f.t1(), slip_2 = -f.sign * f.t2();
   // forces per unit of N (sliding friction included) and of T, in the axes of the frame
   const double push_1 = kOwnT ? f.n1 : contact.force1, push_2 = kOwnT ? f.n2 : contact.force2;
@@ -54,10 +62,10 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   double tanh_0 = 0.0, tanh_rate = 0.0, tanh_force = 0.0;  // tanh, d tanh/dV and dT/d tanh, all at power 0
   const double x_0 = segment.x[0], y_0 = segment.y[0], c_0 = segment.cos_phi[0], s_0 = segment.sin_phi[0];
   // forces per unit of N and of T along x and y, power 0
-  const double push_x = kEdge ? push_1 * c_0 - push_2 * s_0 : push_1,
-               push_y = kEdge ? push_1 * s_0 + push_2 * c_0 : push_2,
-               drag_x = kEdge ? drag_1 * c_0 - drag_2 * s_0 : drag_1,
-               drag_y = kEdge ? drag_1 * s_0 + drag_2 * c_0 : drag_2;
+  const double push_x = kEdge ? along_push(push_1, c_0, -push_2, s_0) : push_1,
+               push_y = kEdge ? along_push(push_1, s_0, push_2, c_0) : push_2,
+               drag_x = kEdge ? along_t(drag_1, c_0, -drag_2, s_0) : drag_1,
+               drag_y = kEdge ? along_t(drag_1, s_0, drag_2, c_0) : drag_2;
   // sums for the direction and the centre of the next power, and for the forces
   Quad turn_push{}, centre{};
 
@@ -75,7 +83,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   direction_[0] = Pair{c_0, s_0};
   if (kEdge) centre_[0] = Pair{c_0 * x_0 + s_0 * y_0, c_0 * y_0 - s_0 * x_0};
   point[0] = kEdge ? edge_at(c_0, s_0, centre_[0]) : corner_at(c_0, s_0, x_0, y_0);
-  series.depth[0] = depth_1 * point[0][0] + depth_2 * point[0][1] + f.offset;
+  series.depth[0] = along_n(depth_1, point[0][0], depth_2, point[0][1]) + f.offset;
   for (int k = 0;; ++k) {
     // direction, point and depth of the next power
     const int n = k + 1;
@@ -87,11 +95,11 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     segment.sin_phi[n] = s;
     if (kEdge) centre_[n] = centre_of(c, s, segment.x[n], segment.y[n]);
     point[n] = kEdge ? edge_at(c, s, centre_[n]) : corner_at(c, s, segment.x[n], segment.y[n]);
-    series.depth[n] = depth_1 * point[n][0] + depth_2 * point[n][1];
+    series.depth[n] = along_n(depth_1, point[n][0], depth_2, point[n][1]);
 
     // sums over what the powers before know
-    if (kEdge) push_moment[k] = push_2 * point[k][0] - push_1 * point[k][1];
-    const double drag_moment = kEdge && kOwnT ? drag_2 * point[k][0] - drag_1 * point[k][1] : 0.0;
+    if (kEdge) push_moment[k] = along_push(-push_1, point[k][1], push_2, point[k][0]);
+    const double drag_moment = kEdge && kOwnT ? along_t(-drag_1, point[k][1], drag_2, point[k][0]) : 0.0;
     if (k == 0) drag_moment_0 = kEdge ? drag_moment : drag_c_arm * c_0 + drag_s_arm * s_0;
     turn_push = centre = Quad{};
     Quad moments{}, layer{};
@@ -122,7 +130,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
 
     // N, V and T of power k
     const double force_n = contact.stiffness * series.depth[k] + (contact.damping * n) * series.depth[n];
-    const double v = (n * slip_1) * point[n][0] + (n * slip_2) * point[n][1];
+    const double v = along_t(n * slip_1, point[n][0], n * slip_2, point[n][1]);
     double force_t = kSticks ? 0.0 : contact.ratio * force_n;
     if (kTanh && k == 0) {
       tanh_0 = std::tanh(v * slope);
@@ -149,12 +157,12 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     double force_x = segment.drive_x[k] - system_.x.damping * segment.vx[k] - system_.x.stiffness * dx;
     double force_y = segment.drive_y[k] - weight - system_.y.damping * segment.vy[k] - system_.y.stiffness * dy;
     if (kEdge && kTurns) {
-      force_x += push_1 * turn_push[2] - push_2 * turn_push[3];
-      force_y += push_1 * turn_push[3] + push_2 * turn_push[2];
+      force_x += along_push(push_1, turn_push[2], -push_2, turn_push[3]);
+      force_y += along_push(push_1, turn_push[3], push_2, turn_push[2]);
     }
     if (kEdge && kTurns && kOwnT) {
-      force_x += drag_1 * moments[0] - drag_2 * moments[1];
-      force_y += drag_1 * moments[1] + drag_2 * moments[0];
+      force_x += along_t(drag_1, moments[0], -drag_2, moments[1]);
+      force_y += along_t(drag_1, moments[1], drag_2, moments[0]);
     }
     force_x += push_x * force_n;
     force_y += push_y * force_n;
@@ -186,7 +194,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       const double own_c = -next_inverse * turn_push[1], own_s = next_inverse * turn_push[0];
       const Pair own =
           kEdge ? edge_at(own_c, own_s, centre_of(own_c, own_s, 0.0, 0.0)) : corner_at(own_c, own_s, 0.0, 0.0);
-      const double own_rate = (n * (n + 1)) * (slip_1 * own[0] + slip_2 * own[1]);
+      const double own_rate = (n * (n + 1)) * along_t(slip_1, own[0], slip_2, own[1]);
       const HoldingForces::Answer free{{}, fast_x * force_x, fast_y * force_y, fast_phi * turn};
       const HoldingForces::Answer held = holding_.hold_motion_of_one(free, own_rate);
       if (k == 0 && (!holding_.regular() || rounding_shows(free, held, segment))) return false;
@@ -212,17 +220,23 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   return true;
 }
 
-template <bool kEdge, bool kTurns>
+template <bool kEdge, bool kTurns, bool kLevel>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_by_law(Segment& segment) {
-  if (contacts_[0].slip == Slip::stick) return expand_single_of<kEdge, kTurns, Law::sticks>(segment);
-  if (contacts_[0].slip == Slip::regularized) return expand_single_of<kEdge, kTurns, Law::layer>(segment);
-  return expand_single_of<kEdge, kTurns, Law::slides>(segment);
+  if (contacts_[0].slip == Slip::stick) return expand_single_of<kEdge, kTurns, kLevel, Law::sticks>(segment);
+  if (contacts_[0].slip == Slip::regularized) return expand_single_of<kEdge, kTurns, kLevel, Law::layer>(segment);
+  return expand_single_of<kEdge, kTurns, kLevel, Law::slides>(segment);
+}
+
+template <bool kEdge, bool kTurns>
+VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_by_face(Segment& segment) {
+  return contacts_[0].frame.n2 != 0.0 ? expand_single_by_law<kEdge, kTurns, true>(segment)
+                                      : expand_single_by_law<kEdge, kTurns, false>(segment);
 }
 
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_any_single(Segment& segment) {
   if (is_edge(contacts_[0].site))
-    return system_.phi.moves ? expand_single_by_law<true, true>(segment) : expand_single_by_law<true, false>(segment);
-  return system_.phi.moves ? expand_single_by_law<false, true>(segment) : expand_single_by_law<false, false>(segment);
+    return system_.phi.moves ? expand_single_by_face<true, true>(segment) : expand_single_by_face<true, false>(segment);
+  return system_.phi.moves ? expand_single_by_face<false, true>(segment) : expand_single_by_face<false, false>(segment);
 }
 
 #ifdef __x86_64__

@@ -80,10 +80,11 @@ void require_finite(const Series& unit, int order) {
   if (!std::isfinite(sum)) throw SolverFailure("the motion is no longer finite");
 }
 
-/// g(t h) as a polynomial on [0, 1]; its least value there, at least.
+/// g(t h) as a polynomial on [0, 1]; where g(0) > 0, the lower bound of range_on_unit().
 double scale_to_unit(const Series& g, int order, double h, Series& unit) {
   Pair power{1.0, h}, low{};
   const double square = h * h;
+  double alone = 0.0;
   for_powers(
       0, order,
       [&](int k) {
@@ -94,9 +95,9 @@ double scale_to_unit(const Series& g, int order, double h, Series& unit) {
       },
       [&](int k) {
         unit[k] = g[k] * power[0];
-        low[0] += std::min(unit[k], 0.0);
+        alone = std::min(unit[k], 0.0);
       });
-  return std::max(unit[0], 0.0) + (low[0] + low[1]);
+  return (std::max(unit[0], 0.0) + alone) + (low[0] + low[1]);
 }
 
 /// The left and right half of [0, 1], each as a polynomial on [0, 1].
@@ -154,9 +155,10 @@ double falling_root(const Series& g, int order) {
   return t;
 }
 
-/// First fall below zero on [0, 1] of a polynomial with g(0) > 0, or kNoRoot.
-double first_fall_on_unit(const Series& g, int order, int halvings) {
-  if (range_on_unit(g, order).low > 0.0) return kNoRoot;
+double first_fall_on_unit(const Series& g, int order, int halvings);
+
+/// First fall below zero on [0, 1] of a polynomial with g(0) > 0 whose bounds leave room for one, or kNoRoot.
+double first_fall_within_bounds(const Series& g, int order, int halvings) {
   const Range slope = slope_on_unit(g, order);
   if (slope.low >= 0.0) return kNoRoot;
   if (slope.high <= 0.0) return value_at(g, order, 1.0) < 0.0 ? falling_root(g, order) : kNoRoot;
@@ -169,6 +171,11 @@ double first_fall_on_unit(const Series& g, int order, int halvings) {
   if (half[0] <= 0.0) return 0.5;
   const double right = first_fall_on_unit(half, order, halvings + 1);
   return right == kNoRoot ? kNoRoot : 0.5 + 0.5 * right;
+}
+
+/// First fall below zero on [0, 1] of a polynomial with g(0) > 0, or kNoRoot.
+double first_fall_on_unit(const Series& g, int order, int halvings) {
+  return range_on_unit(g, order).low > 0.0 ? kNoRoot : first_fall_within_bounds(g, order, halvings);
 }
 
 /// Divides out `zeros` roots at t = 0.
@@ -222,6 +229,8 @@ Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kM
   return entry;
 }
 
+double time_of(double root_on_unit, double h) { return root_on_unit == kNoRoot ? kNoRoot : root_on_unit * h; }
+
 }  // namespace
 
 double first_fall(const Series& g, int order, double h, int zeros_at_start) {
@@ -229,14 +238,19 @@ double first_fall(const Series& g, int order, double h, int zeros_at_start) {
   const double low = scale_to_unit(g, order, h, unit);
   if (low > 0.0 && zeros_at_start == 0) return kNoRoot;
   require_finite(unit, order);
+  if (unit[0] > 0.0 && order > 0 && zeros_at_start == 0) return time_of(first_fall_within_bounds(unit, order, 0), h);
   if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);
   if (unit[0] <= 0.0 && zeros_at_start == 0) order = deflate(unit, order, 1);
   // what starts at an exact zero is judged by its first coefficient that is not
   while (order > 0 && unit[0] == 0.0) order = deflate(unit, order, 1);
   if (unit[0] < 0.0) return 0.0;
   if (order == 0) return kNoRoot;
-  const double root = first_fall_on_unit(unit, order, 0);
-  return root == kNoRoot ? kNoRoot : root * h;
+  return time_of(first_fall_on_unit(unit, order, 0), h);
+}
+
+bool stays_above_zero(const Series& g, int order, double h) {
+  Series unit;
+  return scale_to_unit(g, order, h, unit) > 0.0;
 }
 
 Entry first_entry(const Conditions& conditions, int order, double h) {

@@ -15,6 +15,9 @@ constexpr double kNoRoot = -1.0;
 /// A g that starts at or below zero for want of the last digit, and rises, is taken as starting at zero.
 double first_fall(const Series& g, int order, double h, int zeros_at_start);
 
+/// True when bounds show that g stays above zero on [0, h]; false says nothing.
+bool stays_above_zero(const Series& g, int order, double h);
+
 constexpr int kMaxConditions = 6;
 
 /// Several polynomials that must all be positive.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "mechanics/contact.h"
 #include "mechanics/instant.h"
@@ -11,7 +12,7 @@
 
 namespace vibratory_alignment {
 
-enum class EventKind {
+enum class EventKind : std::uint8_t {
   touch,          ///< a contact starts out of flight (an impact)
   reload,         ///< N rises from zero while the depth is still > 0
   release,        ///< N falls to zero

@@ -29,8 +29,9 @@ double largest_value(const Series& series, int order, double from, double to) {
   if (order < 2 || !(to > from)) return largest;
   // the series about `from`, then every interior maximum: the slope falls through zero there
   Series about = series;
-  for (int i = 0; i < order; ++i)
-    for (int k = order - 1; k >= i; --k) about[k] += about[k + 1] * from;
+  if (from != 0.0)
+    for (int i = 0; i < order; ++i)
+      for (int k = order - 1; k >= i; --k) about[k] += about[k + 1] * from;
   const double span = to - from;
   double bound = about[0], size = std::abs(about[0]), power = 1.0;
   for (int k = 1; k <= order; ++k) {
@@ -40,14 +41,14 @@ double largest_value(const Series& series, int order, double from, double to) {
   }
   if (!(size < kNearOverflow)) return std::numeric_limits<double>::quiet_NaN();
   if (bound <= largest) return largest;
-  Series slope{};
+  Series slope;
   double start = 0.0;
   for (int i = 0; i < order; ++i) {
     for (int k = 0; k < order; ++k) slope[k] = (k + 1) * about[k + 1];
     const double left = span - start;
     // skip a falling stretch: its end is where the slope rises through zero
     if (slope[0] < 0.0) {
-      Series negative{};
+      Series negative;
       for (int k = 0; k < order; ++k) negative[k] = -slope[k];
       const double rise = first_fall(negative, order - 1, left, 0);
       if (rise == kNoRoot) return largest;

@@ -24,11 +24,11 @@ double rough_log2(double value) {
   return static_cast<double>(bits) * 0x1p-52 - 1023.0;
 }
 
-/// log2 of the time at which the terms `order` - 1 and `order` have both fallen to `tolerance` times the largest
-/// leading term. What is zero counts as 2^-1023.
-double log2_step(const Series& v, int order, double log2_tolerance) {
+/// log2 of the time at which the terms `order` - 1 and `order` of v have both fallen to `tolerance` times the largest
+/// of the leading terms, of which those of v or of a scale are given. What is zero counts as 2^-1023.
+double log2_step(const double* leading_terms, const Series& v, int order, double log2_tolerance) {
   double leading[kLeadingTerms], step[2];
-  for (int j = 0; j < kLeadingTerms; ++j) leading[j] = log2_tolerance + rough_log2(std::abs(v[j]));
+  for (int j = 0; j < kLeadingTerms; ++j) leading[j] = log2_tolerance + rough_log2(std::abs(leading_terms[j]));
   for (int i = 0; i < 2; ++i) {
     const int k = order - i;
     const double last = rough_log2(std::abs(v[k]));
@@ -40,9 +40,10 @@ double log2_step(const Series& v, int order, double log2_tolerance) {
 
 /// Likewise of T beside f N, to the power `order`.
 double log2_friction_step(const ContactSeries& contact, double friction, int order, double log2_tolerance) {
-  Series scale = contact.tangential_force;
-  for (int k = 0; k < kLeadingTerms; ++k) scale[k] = std::abs(scale[k]) + friction * std::abs(contact.normal_force[k]);
-  return log2_step(scale, order, log2_tolerance);
+  double scale[kLeadingTerms];
+  for (int k = 0; k < kLeadingTerms; ++k)
+    scale[k] = std::abs(contact.tangential_force[k]) + friction * std::abs(contact.normal_force[k]);
+  return log2_step(scale, contact.tangential_force, order, log2_tolerance);
 }
 
 bool has_law(const Segment& segment, const ContactSeries& contact, Slip slip) {
@@ -50,9 +51,10 @@ bool has_law(const Segment& segment, const ContactSeries& contact, Slip slip) {
 }
 
 /// True when contacts hold the axis of velocity v: its terms are no more than rounding of what the part has of speed
-/// and of the forces that cancel in them. `mobility`: acceleration for a force of one at the far end of the part.
-bool contacts_hold(const Segment& s, const Series& v, double mobility) {
-  if (std::abs(v[0]) > kHeld * (std::abs(s.vx[0]) + std::abs(s.vy[0]) + std::abs(s.omega[0]))) return false;
+/// (`speed`: of all axes) and of the forces that cancel in them. `mobility`: acceleration for a force of one at the far
+/// end of the part.
+bool contacts_hold(const Segment& s, const Series& v, double speed, double mobility) {
+  if (std::abs(v[0]) > kHeld * speed) return false;
   const auto is_rounding = [&](int k) {
     double forces = 0.0;
     for (int i = 0; i < s.loaded_count; ++i)
@@ -69,13 +71,14 @@ bool contacts_hold(const Segment& s, const Series& v, double mobility) {
 double series_step(const System& system, const Segment& segment, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
   const double reach = system.half_width + system.base_distance;
+  const double speed = std::abs(segment.vx[0]) + std::abs(segment.vy[0]) + std::abs(segment.omega[0]);
   double shortest = kInfinity;
   const auto look = [&](const Series& v, double mobility) {
     // an axis whose leading terms vanish has no scale of its own; what is at rest must not begin to move either
     const double leading = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), std::abs(v[3])});
     const double last = std::max(std::abs(v[segment.order - 1]), std::abs(v[segment.order]));
-    if (leading == 0.0 || std::max(leading, last) < kRest || contacts_hold(segment, v, mobility)) return;
-    shortest = std::min(shortest, log2_step(v, segment.order, log2_tolerance));
+    if (leading == 0.0 || std::max(leading, last) < kRest || contacts_hold(segment, v, speed, mobility)) return;
+    shortest = std::min(shortest, log2_step(v.data(), v, segment.order, log2_tolerance));
   };
   look(segment.vx, system.x.inverse_inertia);
   look(segment.vy, system.y.inverse_inertia);

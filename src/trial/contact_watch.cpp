@@ -34,12 +34,9 @@ void ContactWatch::book_peaks(const Segment& segment) {
     const ContactSeries& contact = segment.loaded[i];
     double& peak = peaks_[static_cast<std::size_t>(spot_of(contact.site))];
     // the maximum is looked for only where it can be a new one
-    double bound = contact.normal_force[0], power = 1.0;
-    for (int k = 1; k <= segment.order; ++k) {
-      power *= segment.duration;
-      bound += std::max(0.0, contact.normal_force[k] * power);
-    }
-    if (bound <= peak) continue;
+    double bound = 0.0;
+    for (int k = segment.order; k > 0; --k) bound = (bound + std::max(contact.normal_force[k], 0.0)) * segment.duration;
+    if (contact.normal_force[0] + bound <= peak) continue;
     const double largest = largest_value(contact.normal_force, segment.order, 0.0, segment.duration);
     if (!std::isfinite(largest))
       throw SolverFailure(std::string("the force at ") + to_string(spot_of(contact.site)) + " is no longer finite");
