@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mechanics/site_rules.h"
 #include "solver/contact_point.h"
@@ -196,11 +197,10 @@ class Search {
   bool stays_at_rest(int loaded) {
     const Series& v = segment_.loaded[loaded].slip_velocity;
     if (std::abs(v[0]) > kSurelySliding * speed_ || std::abs(v[1]) > kSurelySliding * acceleration_) return false;
-    if (!noise_known_) noise_ = series_noise(system_, segment_, duration_, kRestAllowance);
-    noise_known_ = true;
+    if (!noise_) noise_ = series_noise(system_, segment_, duration_, kRestAllowance);
     double sum = 0.0, power = 1.0;
     for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(v[k]) * power;
-    return sum <= noise_.slip_rate[loaded] * duration_ + kZeroSlip * speed_;
+    return sum <= noise_->slip_rate[loaded] * duration_ + kZeroSlip * speed_;
   }
 
   void guard_loaded(Site site, int loaded) {
@@ -419,8 +419,7 @@ class Search {
   int order_;
   double duration_;
   double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
-  bool noise_known_ = false;
-  SeriesNoise noise_;
+  std::optional<SeriesNoise> noise_;  ///< once it has been asked for
   FoundEvents& found_;
 };
 

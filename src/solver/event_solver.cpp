@@ -153,13 +153,13 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
                          long step_limit, ContactMethod method)
     : system_(saturated(system, std::max(kStepShare * tolerance, kSmallestTolerance))),
       tolerance_(std::max(kStepShare * tolerance, kSmallestTolerance)),
-      force_tolerance_(std::max(kForceShare * tolerance, kSmallestTolerance)),
       contact_order_(series_order(tolerance_)),
       search_tolerance_(std::max(kSearchShare * tolerance_, kFlightTolerance)),
       search_order_(std::min(kSearchOrder + static_cast<int>(-std::log10(search_tolerance_)), kMaxOrder)),
       step_limit_(step_limit),
       method_(method),
       series_(system_),
+      reach_(system_, tolerance_, std::max(kForceShare * tolerance, kSmallestTolerance)),
       friction_(system_, tolerance_),
       implicit_(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance)),
       flight_(excitations.size()) {
@@ -203,24 +203,6 @@ double EventSolver::crossing_time(double found, const Event& event) const {
   if (!(std::abs(correction) <= kMostCorrection * segment_.duration)) return found;
   const double corrected = std::clamp(found + correction, 0.0, segment_.duration);
   return std::abs(point_at(corrected).depth) <= std::abs(k.depth) ? corrected : found;
-}
-
-/// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
-/// nears +-1 as exp(-2|V|/eps), whose series shows its terms only within a few eps.
-double EventSolver::tanh_layer_step() const {
-  double shortest = kInfinity;
-  for (int i = 0; i < segment_.loaded_count; ++i) {
-    const ContactSeries& contact = segment_.loaded[static_cast<std::size_t>(i)];
-    if (segment_.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::regularized) continue;
-    const double eps = system_.regularization;
-    const double v0 = contact.slip_velocity[0], pole = 1.57 * eps;
-    const double reach = std::min(0.6 * std::sqrt(v0 * v0 + pole * pole), 4.0 * eps);
-    const double v1 = std::abs(contact.slip_velocity[1]), v2 = std::abs(contact.slip_velocity[2]);
-    // v1 h + v2 h^2 = reach
-    const double step = 2.0 * reach / (v1 + std::sqrt(v1 * v1 + 4.0 * v2 * reach));
-    if (step < shortest) shortest = step;
-  }
-  return shortest;
 }
 
 /// True when the sticking contacts hold the same motion now but would have to move apart.
@@ -298,18 +280,19 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
   return true;
 }
 
-/// Expands the motion in contact; the length that its truncation error allows.
-double EventSolver::expand_contact(const DriveForms& drives) {
-  series_.expand_contact(state_, drives, contact_order_, segment_);
+/// Expands the motion in contact for a step of at most `longest`; the length that its truncation error allows.
+double EventSolver::expand_contact(double longest, const DriveForms& drives) {
+  reach_.begin(longest);
+  series_.expand_contact(state_, drives, contact_order_, segment_, &reach_);
+  if (last_terms(segment_) < kNearOverflow) return reach_.last_time();
   // rates so high that their powers overflow
-  if (!(last_terms(segment_) < kNearOverflow)) series_.expand_contact(state_, drives, kLowOrder, segment_);
-  return std::min({series_step(system_, segment_, tolerance_), tanh_layer_step(),
-                   layer_force_step(segment_, system_.friction, force_tolerance_)});
+  series_.expand_contact(state_, drives, kLowOrder, segment_);
+  return reach_.time(segment_);
 }
 
 /// The same, once friction holds what is said to stick.
-double EventSolver::series_contact_step(const DriveForms& drives) {
-  const double step = expand_contact(drives);
+double EventSolver::series_contact_step(double longest, const DriveForms& drives) {
+  const double step = expand_contact(longest, drives);
   if (excess_friction(system_, segment_, step) <= kExcessFriction) return step;
   segment_.duration = 0.0;
   segment_.end = state_;
@@ -318,7 +301,7 @@ double EventSolver::series_contact_step(const DriveForms& drives) {
   decide_friction_anew(system_, segment_, drives, friction_, mode_);
   for (std::size_t i = 0; i < kSiteCount; ++i) segment_.contacts[i].slip = mode_.contacts[i].slip;
   segment_.begin = state_ = hold_sticking(system_, state_, mode_.contacts);
-  const double new_step = expand_contact(drives);
+  const double new_step = expand_contact(longest, drives);
   if (excess_friction(system_, segment_, new_step) > kTooMuchFriction) fail("no contact state is consistent");
   return new_step;
 }
@@ -335,7 +318,7 @@ double EventSolver::direction_step(double step, double point_tolerance) {
 /// One step in contact of at most `longest`, by the method that is due.
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
   // to a kink or limit that is here already, when rounding left nothing on the way, the series go
-  if (method_ == ContactMethod::series || longest == 0.0) return series_contact_step(drives);
+  if (method_ == ContactMethod::series || longest == 0.0) return series_contact_step(longest, drives);
   if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
   const double step = implicit_contact_step({longest}, drives);
   if (step == 0.0) fail("an implicit step does not converge");
@@ -346,7 +329,7 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
 double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
   choice_.look_at(segment_.contacts);
   if (choice_.may_pass_over()) {
-    const double step = series_contact_step(drives);
+    const double step = series_contact_step(longest, drives);
     if (!choice_.starts_passing_over(step, longest, normal_force_change(segment_, std::min(step, longest)))) {
       choice_.earn();
       return step;
@@ -354,7 +337,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
   } else if (choice_.starts_trial(longest)) {
     implicit_.suggest(choice_.trial_length());
   } else if (choice_.asks_series()) {
-    choice_.learn_pace(expand_contact(drives));
+    choice_.learn_pace(expand_contact(0.0, drives));
     counts_.rhs_evaluations += segment_.order;
   }
   if (choice_.implicit()) {
@@ -364,7 +347,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
     settle(0.0, longest);
   }
   choice_.earn();
-  return series_contact_step(drives);
+  return series_contact_step(longest, drives);
 }
 
 /// An implicit step; 0 when there is none within the bounds.

@@ -5,6 +5,7 @@
 #include "solver/flight.h"
 #include "solver/implicit_step.h"
 #include "solver/method_choice.h"
+#include "solver/series_reach.h"
 #include "solver/solver.h"
 #include "solver/transitions.h"
 
@@ -27,10 +28,9 @@ class EventSolver final : public Solver {
   State flight_state(double duration) const;
   double crossing_time(double found, const Event& event) const;
   double first_crossing(const FoundEvents& found) const;
-  double tanh_layer_step() const;
   bool must_part() const;
-  double expand_contact(const DriveForms& drives);
-  double series_contact_step(const DriveForms& drives);
+  double expand_contact(double longest, const DriveForms& drives);
+  double series_contact_step(double longest, const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
   double chosen_contact_step(double longest, const DriveForms& drives);
@@ -45,7 +45,7 @@ class EventSolver final : public Solver {
   [[noreturn]] void fail(const std::string& reason) const;
 
   System system_;
-  double tolerance_, force_tolerance_;
+  double tolerance_;
   int contact_order_;
   double search_tolerance_;
   int search_order_;
@@ -64,6 +64,7 @@ class EventSolver final : public Solver {
 
   ContactMethod method_;
   MotionSeries series_;
+  SeriesReach reach_;
   FrictionChoice friction_;
   ImplicitStep implicit_;
   bool implicit_now_ = false;     ///< the current segment is an implicit step

@@ -1,6 +1,5 @@
 #include "solver/held_state.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
@@ -18,13 +17,12 @@ double reach_of(const Vec2& lever) { return std::abs(lever.x) + std::abs(lever.y
 
 }  // namespace
 
-State hold_sticking(const System& system, const State& state, const ContactStates& contacts) {
-  const auto sticks = [](const ContactState& contact) { return contact.slip == Slip::stick; };
-  if (std::none_of(contacts.begin(), contacts.end(), sticks)) return state;
+State take_out_slip(const System& system, const State& state, const ContactStates& contacts) {
   std::array<ContactKinematics, kSiteCount> held;
   int count = 0;
   for (std::size_t i = 0; i < kSiteCount; ++i)
-    if (sticks(contacts[i])) held[count++] = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
+    if (contacts[i].slip == Slip::stick)
+      held[count++] = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
   HoldingForces::Rows rows;
   HoldingForces::Vector rhs{}, noise{};
   for (int i = 0; i < count; ++i) {

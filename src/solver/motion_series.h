@@ -35,6 +35,15 @@ struct DriveForms {
   }
 };
 
+/// Asked when the series of a step in contact are known to a power: to which power to go on, if to a higher one.
+class OrderChoice {
+ public:
+  virtual int next_order(const Segment& segment) = 0;
+
+ protected:
+  ~OrderChoice() = default;
+};
+
 class MotionSeries {
  public:
   explicit MotionSeries(const System& system) : system_(system) {}
@@ -43,7 +52,9 @@ class MotionSeries {
   void expand_free(const State& start, const DriveForms& drives, int order, Segment& segment);
 
   /// Fills the segment with its loaded contacts (segment.contacts) from `start`. Sticking contacts have V = 0 exactly.
-  [[gnu::noinline]] void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment);
+  /// `choice`: is asked at the power `order` whether to go on.
+  [[gnu::noinline]] void expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment,
+                                        OrderChoice* choice = nullptr);
 
   /// Takes over a segment whose x ... omega were made elsewhere, for what point() and direction() tell about it.
   void adopt(Segment& segment);
@@ -96,6 +107,8 @@ class MotionSeries {
 
   void restart(int order, Segment& segment);
   void start(const State& start, const DriveForms& drives, int order, Segment& segment);
+  static void set_drives(const DriveForms& drives, int order, Segment& segment);
+  bool goes_on(Segment& segment);
   void set_up_contacts(Segment& segment);
   void trig_term(int k, Segment& segment);
   void centre_term(int k, const Segment& segment);
@@ -129,6 +142,8 @@ class MotionSeries {
   bool expand_single_of(Segment& segment);
 
   const System& system_;
+  OrderChoice* choice_ = nullptr;       ///< of the present step in contact
+  const DriveForms* drives_ = nullptr;  ///< likewise
   int order_ = 0;
   int known_trig_ = 0;  ///< highest known power of cos and sin
   std::array<Contact, kSiteCount> contacts_;

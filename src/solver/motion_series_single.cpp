@@ -36,7 +36,6 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   Contact& contact = contacts_[0];
   ContactSeries& series = segment.loaded[0];
   PairSeries& point = points_[contact.point];
-  const int order = segment.order;
   const ContactFrame& f = contact.frame;
   const double side = side_of(contact.site), l = side * system_.slot_half_width, beta = side * system_.half_width,
                b0 = system_.base_distance;
@@ -112,7 +111,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       if (kEdge) right[k].centre = Quad{segment.x[n], segment.x[n], segment.y[n], segment.y[n]};
     }
     if (kTanh) left[k].layer = Quad{};
-    for (int j = 1; j <= k; ++j) {
+    const auto add_products = [&](int j) {
       const LeftFactors& a = left[j];
       const RightFactors& b = right[k - j];
       if (kTurns) {
@@ -122,7 +121,13 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
         if (kEdge && !kOwnT) moment += push_moment[j] * b.turn_push[2];
       }
       if (kTanh) layer += a.layer * b.layer;
+    };
+    int j = 1;
+    for (; j < k; j += 2) {
+      add_products(j);
+      add_products(j + 1);
     }
+    if (j == k) add_products(k);
     if (kTurns) {
       turn_push += left[0].turn_push * Quad{omega, omega, 0.0, 0.0};
       if (kEdge) centre += left[0].next * right[k].centre;
@@ -148,7 +153,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     series.normal_force[k] = force_n;
     series.slip_velocity[k] = v;
     series.tangential_force[k] = force_t;
-    if (k == order) break;
+    if (k == segment.order && !goes_on(segment)) break;
 
     // forces of power k: of the axis itself, of what the powers before make of the contact, and of its N and T
     const double dx = k == 0 ? x_0 - system_.x.anchor : segment.x[k];
@@ -214,9 +219,9 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     if (kTurns) right[k].turn_push = Quad{omega, omega, force_n, force_n};
     if (kTurns && kOwnT) right[k].moment = Quad{force_t, force_t, force_n, force_t};
   }
-  known_trig_ = order + 1;
-  known_point_[contact.point] = order + 1;
-  if (kEdge) known_centre_ = order + 1;
+  known_trig_ = segment.order + 1;
+  known_point_[contact.point] = segment.order + 1;
+  if (kEdge) known_centre_ = segment.order + 1;
   return true;
 }
 

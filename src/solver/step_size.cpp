@@ -66,9 +66,8 @@ bool contacts_hold(const Segment& s, const Series& v, double speed, double mobil
   return is_rounding(s.order - 1) && is_rounding(s.order);
 }
 
-}  // namespace
-
-double series_step(const System& system, const Segment& segment, double tolerance) {
+/// log2 of series_step().
+double log2_series_step(const System& system, const Segment& segment, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
   const double reach = system.half_width + system.base_distance;
   const double speed = std::abs(segment.vx[0]) + std::abs(segment.vy[0]) + std::abs(segment.omega[0]);
@@ -89,16 +88,22 @@ double series_step(const System& system, const Segment& segment, double toleranc
     if (has_law(segment, contact, Slip::stick))
       shortest = std::min(shortest, log2_friction_step(contact, system.friction, segment.order - 1, log2_tolerance));
   }
-  return std::exp2(shortest);
+  return shortest;
 }
 
-double layer_force_step(const Segment& segment, double friction, double tolerance) {
-  const double log2_tolerance = rough_log2(tolerance);
-  double shortest = kInfinity;
+}  // namespace
+
+double series_step(const System& system, const Segment& segment, double tolerance) {
+  return std::exp2(log2_series_step(system, segment, tolerance));
+}
+
+double contact_step(const System& system, const Segment& segment, double tolerance, double force_tolerance) {
+  const double log2_tolerance = rough_log2(force_tolerance);
+  double shortest = log2_series_step(system, segment, tolerance);
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     if (has_law(segment, contact, Slip::regularized))
-      shortest = std::min(shortest, log2_friction_step(contact, friction, segment.order, log2_tolerance));
+      shortest = std::min(shortest, log2_friction_step(contact, system.friction, segment.order, log2_tolerance));
   }
   return std::exp2(shortest);
 }

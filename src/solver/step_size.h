@@ -12,10 +12,11 @@ namespace vibratory_alignment {
 /// Infinity for what is at rest, or held by contacts: what rounding of their forces leaves has no time scale.
 [[gnu::noinline]] double series_step(const System& system, const Segment& segment, double tolerance);
 
-/// Longest time over which the last two terms of T of every contact in the tanh layer stay below `tolerance` times T
-/// and f N: where friction hardly moves the part, its velocities do not tell how far the series of T holds. Infinity
-/// without such a contact.
-double layer_force_step(const Segment& segment, double friction, double tolerance);
+/// The same for a step in contact, over which the last two terms of T of every contact in the tanh layer also stay
+/// below `force_tolerance` times T and f N: where friction hardly moves the part, its velocities do not tell how far
+/// the series of T holds.
+[[gnu::noinline]] double contact_step(const System& system, const Segment& segment, double tolerance,
+                                      double force_tolerance);
 
 /// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
 [[gnu::noinline]] double pair_step(const PairSeries& series, int order, double tolerance);

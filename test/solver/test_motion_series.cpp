@@ -291,6 +291,61 @@ TEST(MotionSeries, a_side_that_hardly_leans_into_a_strong_damper) {
   }
 }
 
+/// Asks for so many powers more, in two turns.
+struct GoesOn : OrderChoice {
+  int turns = 0;
+  int next_order(const Segment& segment) override { return ++turns == 1 ? segment.order + 2 : turns == 2 ? kOrder : 0; }
+};
+
+void expect_equal(const Series& a, const Series& b, int order) {
+  for (int k = 0; k <= order; ++k) EXPECT_EQ(a[k], b[k]) << "power " << k;
+}
+
+// Series that are asked for more powers while they are made are those that would have been made at once.
+void expect_the_same_in_turns(const Case& s, const State& start, const std::vector<Touch>& touches) {
+  Segment at_once, in_turns;
+  for (const Touch& touch : touches)
+    at_once.contacts[static_cast<std::size_t>(touch.site)] = {Phase::loaded, touch.face, touch.slip};
+  in_turns.contacts = at_once.contacts;
+  MotionSeries series(s.system), other(s.system);
+  series.expand_contact(start, s.drives, kOrder, at_once);
+  GoesOn choice;
+  other.expand_contact(start, s.drives, kOrder - 7, in_turns, &choice);
+  EXPECT_EQ(choice.turns, 3);
+  ASSERT_EQ(in_turns.order, kOrder);
+  expect_equal(in_turns.vx, at_once.vx, kOrder);
+  expect_equal(in_turns.vy, at_once.vy, kOrder);
+  expect_equal(in_turns.omega, at_once.omega, kOrder);
+  for (int i = 0; i < at_once.loaded_count; ++i) {
+    expect_equal(in_turns.loaded[i].normal_force, at_once.loaded[i].normal_force, kOrder);
+    expect_equal(in_turns.loaded[i].tangential_force, at_once.loaded[i].tangential_force, kOrder);
+    expect_equal(in_turns.loaded[i].slip_velocity, at_once.loaded[i].slip_velocity, kOrder);
+  }
+  for (const Site site : {Site::a1, Site::b2})
+    for (int k = 0; k <= kOrder; ++k)
+      for (int i : {0, 1}) EXPECT_EQ(other.point(site, in_turns)[k][i], series.point(site, at_once)[k][i]) << k;
+}
+
+TEST_P(MotionSeriesAt, in_turns) {
+  const std::string isotropic = "base={stiffness: {y: 130}, damping: {y: 1.7}}";
+  for (const std::vector<std::string>& settings : {std::vector<std::string>{}, {isotropic}}) {
+    const Case s = case_of(settings);
+    std::mt19937 random(79);
+    for (const Slip slip : {Slip::plus, Slip::stick}) {
+      const Touch touch{GetParam().first, GetParam().second, slip};
+      const State start = random_state(s.system, touch, random);
+      expect_the_same_in_turns(s, slip == Slip::stick ? at_rest_along(s.system, start, touch) : start, {touch});
+    }
+  }
+}
+
+TEST(MotionSeries, two_contacts_in_turns) {
+  const Touch wall{Site::b1, Face::right_wall, Slip::plus}, floor{Site::b1_floor, Face::floor, Slip::minus};
+  std::mt19937 random(80);
+  const Case s = case_of();
+  expect_the_same_in_turns(s, wedged(s.system, wall, floor, 0.05, random), {wall, floor});
+}
+
 TEST(MotionSeries, wall_and_floor_at_once) {
   const Case s = case_of();
   const Touch wall{Site::b1, Face::right_wall, Slip::plus}, floor{Site::b1_floor, Face::floor, Slip::minus};

@@ -1,0 +1,90 @@
+#include "solver/series_reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/step_size.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// What ends a step is worth more powers where it is at most so many times as far as the series hold.
+constexpr double kFar = 1.35;
+
+/// Powers by which series are made longer at a time, and in all.
+constexpr int kMorePowers = 2, kMostMorePowers = 4;
+
+/// Terms this large leave no room for those of higher powers.
+constexpr double kLarge = 1e150;
+
+Slip slip_of(const Segment& segment, int loaded) {
+  return segment.contacts[static_cast<std::size_t>(segment.loaded[static_cast<std::size_t>(loaded)].site)].slip;
+}
+
+}  // namespace
+
+/// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
+/// nears +-1 as exp(-2|V|/eps), whose series shows its terms only within a few eps.
+double SeriesReach::layer_step(const Segment& segment) const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
+    if (slip_of(segment, i) != Slip::regularized) continue;
+    const double eps = system_.regularization;
+    const double v0 = contact.slip_velocity[0], pole = 1.57 * eps;
+    const double reach = std::min(0.6 * std::sqrt(v0 * v0 + pole * pole), 4.0 * eps);
+    const double v1 = std::abs(contact.slip_velocity[1]), v2 = std::abs(contact.slip_velocity[2]);
+    // v1 h + v2 h^2 = reach
+    const double step = 2.0 * reach / (v1 + std::sqrt(v1 * v1 + 4.0 * v2 * reach));
+    if (step < shortest) shortest = step;
+  }
+  return shortest;
+}
+
+double SeriesReach::time(const Segment& segment) const {
+  return std::min(contact_step(system_, segment, tolerance_, force_tolerance_), layer_step(segment));
+}
+
+int SeriesReach::next_order(const Segment& segment) {
+  last_time_ = time(segment);
+  const int order = segment.order;
+  if (more_ == kMostMorePowers || order + kMorePowers > kMaxOrder - 2 || !may_go_on(segment)) return order;
+  const double far = kFar * last_time_;
+  const bool near = far >= longest_ || ends_by(segment, far);
+  if (!near || ends_by(segment, last_time_)) return order;
+  more_ += kMorePowers;
+  return order + kMorePowers;
+}
+
+/// True for a step that its series end, well within the range of numbers and outside the tanh layer: there steps are
+/// short for other reasons, and many.
+bool SeriesReach::may_go_on(const Segment& segment) const {
+  const double terms = std::abs(segment.vx[segment.order]) + std::abs(segment.vy[segment.order]) +
+                       std::abs(segment.omega[segment.order]);
+  if (!(last_time_ < longest_ && terms < kLarge)) return false;
+  for (int i = 0; i < segment.loaded_count; ++i)
+    if (slip_of(segment, i) == Slip::regularized) return false;
+  return true;
+}
+
+/// True when a contact is released or reaches a limit of friction or sliding by then, as far as the series tell. Of T
+/// of what sticks the last power is not known yet, and zero.
+bool SeriesReach::ends_by(const Segment& segment, double time) const {
+  const double layer = system_.tanh_saturation * system_.regularization;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
+    const Slip slip = slip_of(segment, i);
+    const Series& limited = slip == Slip::stick ? contact.tangential_force : contact.slip_velocity;
+    Pair value{};
+    for (int k = segment.order; k >= 0; --k) value = value * time + Pair{contact.normal_force[k], limited[k]};
+    const double normal_force = value[0];
+    if (normal_force < 0.0) return true;
+    if (slip == Slip::stick && std::abs(value[1]) > system_.friction * normal_force) return true;
+    if (slip == Slip::plus && value[1] < layer) return true;
+    if (slip == Slip::minus && value[1] > -layer) return true;
+  }
+  return false;
+}
+
+}  // namespace vibratory_alignment

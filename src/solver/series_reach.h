@@ -1,0 +1,41 @@
+// How far the power series of a step in contact hold, and whether a few more of their terms bring what ends the step
+// within reach (docs/hybrid_step.md "Step").
+#pragma once
+
+#include "solver/motion_series.h"
+
+namespace vibratory_alignment {
+
+class SeriesReach : public OrderChoice {
+ public:
+  /// Truncation errors: of a step, relative to the motion, and of friction in the tanh layer, relative to its limit.
+  SeriesReach(const System& system, double tolerance, double force_tolerance)
+      : system_(system), tolerance_(tolerance), force_tolerance_(force_tolerance) {}
+
+  /// Time over which the series of the segment hold.
+  double time(const Segment& segment) const;
+
+  /// Begins a step of at most `longest`.
+  void begin(double longest) {
+    longest_ = longest;
+    more_ = 0;
+  }
+
+  /// The power to go on to: that of the segment, where nothing is to be gained.
+  [[gnu::noinline]] int next_order(const Segment& segment) override;
+
+  /// Time over which the series of the last next_order() hold.
+  double last_time() const { return last_time_; }
+
+ private:
+  double layer_step(const Segment& segment) const;
+  bool may_go_on(const Segment& segment) const;
+  bool ends_by(const Segment& segment, double time) const;
+
+  const System& system_;
+  double tolerance_, force_tolerance_;
+  double longest_ = 0.0, last_time_ = 0.0;
+  int more_ = 0;  ///< powers beyond those asked for at first
+};
+
+}  // namespace vibratory_alignment

@@ -1,0 +1,169 @@
+// How far series hold, and when they are made longer, on motions whose series and events are known: V, N or T goes as
+// a cosine.
+#include "solver/series_reach.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+constexpr double kTolerance = 1e-8, kHalfPi = 1.5707963267948966, kForever = std::numeric_limits<double>::infinity();
+constexpr int kOrder = 14;
+
+/// size cos(angle + t).
+Series cosine(double size, double angle) {
+  Series series{};
+  double factorial = 1.0;
+  for (int k = 0; k <= kMaxOrder; ++k) {
+    if (k > 0) factorial *= k;
+    series[static_cast<std::size_t>(k)] = size * std::cos(angle + k * kHalfPi) / factorial;
+  }
+  return series;
+}
+
+Series constant(double value) {
+  Series series{};
+  series[0] = value;
+  return series;
+}
+
+/// One contact of a part that moves along x by cos(angle + t), with what limits it at zero when that is.
+struct Motion {
+  System system = make_system(test::scene_of(test::plain));
+  Segment segment;
+
+  Motion(Slip slip, double angle) {
+    const double f = system.friction;
+    segment.order = kOrder;
+    segment.vx = cosine(1.0, angle);
+    segment.contacts[0] = {Phase::loaded, Face::bottom, slip};
+    segment.loaded_count = 1;
+    ContactSeries& contact = segment.loaded[0];
+    contact.normal_force = constant(1.0);
+    contact.slip_velocity = constant(slip == Slip::stick ? 0.0 : slip == Slip::minus ? -1.0 : 1.0);
+    if (slip == Slip::plus) contact.slip_velocity = cosine(1.0, angle);
+    if (slip == Slip::minus) contact.slip_velocity = cosine(-1.0, angle);
+    if (slip == Slip::none) contact.normal_force = cosine(1.0, angle);
+    if (slip == Slip::stick) {
+      contact.tangential_force = cosine(-f, angle);
+      contact.tangential_force[0] += f;  // T = f (1 - cos), of which the power asked last is not known
+      contact.tangential_force[kOrder] = 0.0;
+    }
+  }
+};
+
+/// Angles from which the cosine is zero at `share` times the time over which its series hold, which depends on them.
+double angle_for(Slip slip, double share) {
+  double angle = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Motion motion(slip, angle);
+    const SeriesReach reach(motion.system, kTolerance, kTolerance);
+    angle = 0.5 * (angle + kHalfPi - share * reach.time(motion.segment));
+  }
+  return angle;
+}
+
+int next_order(const Motion& motion, double longest) {
+  SeriesReach reach(motion.system, kTolerance, kTolerance);
+  reach.begin(longest);
+  return reach.next_order(motion.segment);
+}
+
+// The terms k of a cosine are t^k/k! or nothing: the last two, between which one has the power `order`, fall to the
+// tolerance where t^order = order! times it, but for the estimate of the logarithms.
+TEST(SeriesReach, a_cosine_holds_until_its_last_terms_are_due) {
+  const Motion motion(Slip::none, 0.3);
+  const SeriesReach reach(motion.system, kTolerance, kTolerance);
+  const double time = reach.time(motion.segment), due = std::pow(kTolerance * std::tgamma(kOrder), 1.0 / (kOrder - 1));
+  EXPECT_NEAR(time, due, 0.15 * due);
+}
+
+class SeriesReachOf : public testing::TestWithParam<Slip> {};
+INSTANTIATE_TEST_SUITE_P(every_law, SeriesReachOf, testing::Values(Slip::none, Slip::plus, Slip::minus));
+
+// An event within reach needs no more powers, one that is far would still not be in reach.
+TEST_P(SeriesReachOf, powers_are_added_for_what_is_just_beyond) {
+  for (const double share : {0.8, 0.97, 1.4, 2.0}) {
+    const Motion motion(GetParam(), angle_for(GetParam(), share));
+    EXPECT_EQ(next_order(motion, kForever), kOrder) << share;
+  }
+  for (const double share : {1.03, 1.15, 1.3}) {
+    const Motion motion(GetParam(), angle_for(GetParam(), share));
+    EXPECT_EQ(next_order(motion, kForever), kOrder + 2) << share;
+  }
+}
+
+// T = f (1 - cos) reaches f N when the cosine is zero.
+TEST(SeriesReach, powers_are_added_for_a_limit_of_friction) {
+  for (const double sign : {1.0, -1.0})
+    for (const double share : {0.9, 1.15, 2.0}) {
+      Motion motion(Slip::stick, 0.0);
+      SeriesReach reach(motion.system, kTolerance, kTolerance);
+      const double event = share * reach.time(motion.segment);
+      motion = Motion(Slip::stick, kHalfPi - event);
+      for (double& term : motion.segment.loaded[0].tangential_force) term *= sign;
+      const double time = reach.time(motion.segment), actual = event / time;
+      const bool near = actual > 1.0 && actual < 1.35;
+      EXPECT_EQ(next_order(motion, kForever), near ? kOrder + 2 : kOrder) << actual;
+    }
+}
+
+TEST(SeriesReach, powers_are_added_for_the_end_of_the_step) {
+  const Motion motion(Slip::none, -1.5);
+  const double time = SeriesReach(motion.system, kTolerance, kTolerance).time(motion.segment);
+  for (const double share : {0.5, 0.99, 1.4, 3.0}) EXPECT_EQ(next_order(motion, share * time), kOrder) << share;
+  for (const double share : {1.01, 1.3}) EXPECT_EQ(next_order(motion, share * time), kOrder + 2) << share;
+}
+
+TEST(SeriesReach, four_powers_at_most_are_added_in_a_step) {
+  Motion motion(Slip::plus, angle_for(Slip::plus, 1.33));
+  SeriesReach reach(motion.system, kTolerance, kTolerance);
+  for (int step = 0; step < 2; ++step) {
+    reach.begin(kForever);
+    motion.segment.order = kOrder;
+    // the same series, as if they did not reach farther: nothing but the number of powers ends this
+    for (const int expected : {kOrder + 2, kOrder + 2, kOrder}) {
+      EXPECT_EQ(reach.next_order(motion.segment), expected) << step;
+    }
+  }
+  motion.segment.loaded[0].slip_velocity = constant(1.0);
+  for (const int order : {kMaxOrder - 4, kMaxOrder - 3}) {
+    motion.segment.order = order;
+    reach.begin(1.1 * reach.time(motion.segment));
+    EXPECT_EQ(reach.next_order(motion.segment), order + 2 <= kMaxOrder - 2 ? order + 2 : order);
+  }
+}
+
+TEST(SeriesReach, nothing_is_added_in_the_tanh_layer) {
+  Motion motion(Slip::plus, angle_for(Slip::plus, 1.15));
+  motion.system.regularization = 10.0;
+  motion.segment.contacts[0].slip = Slip::regularized;
+  const double time = SeriesReach(motion.system, kTolerance, kTolerance).time(motion.segment);
+  EXPECT_EQ(next_order(motion, 1.1 * time), kOrder);
+}
+
+// Outside the layer V ends at its edge.
+TEST(SeriesReach, the_edge_of_the_tanh_layer_is_an_event) {
+  Motion motion(Slip::plus, 0.0);
+  SeriesReach reach(motion.system, kTolerance, kTolerance);
+  const double time = reach.time(motion.segment);
+  for (const double share : {1.15, 2.0}) {
+    const double angle = 0.4, edge = std::cos(angle + share * time);
+    ASSERT_GT(edge, -1.0);
+    motion = Motion(Slip::plus, angle);
+    motion.segment.loaded[0].slip_velocity[0] += 1.0;  // V = 1 + cos, which falls all the way
+    motion.system.regularization = 1e-3;
+    motion.system.tanh_saturation = 1e3 * (1.0 + edge);
+    const double actual = share * time / reach.time(motion.segment);
+    const bool near = actual > 1.0 && actual < 1.35;
+    EXPECT_EQ(next_order(motion, kForever), near ? kOrder + 2 : kOrder) << actual;
+  }
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
