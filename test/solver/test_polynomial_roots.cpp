@@ -186,6 +186,40 @@ TEST(FirstFall, starts_below_zero_for_want_of_the_last_digit) {
   EXPECT_EQ(first_fall(g, 2, 1.0, 0), 0.0);
 }
 
+// What it says to stay above zero has no fall; with a first term above the sum of the others it says so.
+TEST(StaysAboveZero, is_never_said_of_what_falls) {
+  std::mt19937 random(83);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int said = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const int order = 1 + i % kMaxOrder;
+    const double h = std::pow(10.0, 2.0 * u(random));
+    Series g{};
+    double sum = 0.0;
+    for (int k = 1; k <= order; ++k) {
+      g[k] = u(random) * std::pow(h, -k);
+      sum += std::abs(g[k]) * std::pow(h, k);
+    }
+    g[0] = sum * (1.0 + u(random));
+    const bool stays = stays_above_zero(g, order, h);
+    if (stays) EXPECT_EQ(first_fall(g, order, h, 0), kNoRoot) << i;
+    if (g[0] > 1.0001 * sum) EXPECT_TRUE(stays) << i;
+    if (exact_value(g, order, h) < 0) EXPECT_FALSE(stays) << i;
+    said += stays;
+  }
+  EXPECT_GT(said, 2000);
+}
+
+TEST(StaysAboveZero, is_not_said_of_what_is_not_a_number) {
+  for (const int order : {1, 2, 3, 17})
+    for (int k = 0; k <= order; ++k) {
+      Series g{};
+      g[0] = 1.0;
+      g[k] = std::nan("");
+      EXPECT_FALSE(stays_above_zero(g, order, 1.0)) << "coefficient " << k << " of " << order;
+    }
+}
+
 /// Where a polynomial with these sorted roots and this sign before the first is positive within [0, 1].
 std::vector<std::pair<double, double>> positive_parts(const std::vector<double>& roots, bool positive) {
   std::vector<std::pair<double, double>> parts;
