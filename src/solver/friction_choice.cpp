@@ -155,6 +155,8 @@ bool FrictionChoice::decide_alone(const State& state, const DriveForms& drives, 
   const double minus = plus + 2.0 * system_.friction * normal_force * mobility;
   const double doubt = kDoubt * (series_.slip_rate_size(probe_) + std::abs(plus) + std::abs(minus));
   if (!(std::abs(plus) > doubt && std::abs(minus) > doubt)) return false;
+  // N is below zero by its last digits: it slides either way, and what it would take to stick tells which
+  if (plus > 0.0 && minus < 0.0) return false;
   mode.contacts[site].slip = plus > 0.0 ? Slip::plus : minus < 0.0 ? Slip::minus : Slip::stick;
   SitePins& pins = mode.pins[site];
   pins.slip = mode.contacts[site].slip == Slip::stick ? 0 : 1;

@@ -61,8 +61,7 @@ struct Decision {
     MotionSeries series(system);
     motion.contacts = mode.contacts;
     series.expand_contact(state, drives, kOrder, motion);
-    step = std::min(
-        {1.0, series_step(system, motion, 1e-15), pair_step(series.direction(motion), kOrder, 1e-15)});
+    step = std::min({1.0, series_step(system, motion, 1e-15), pair_step(series.direction(motion), kOrder, 1e-15)});
   }
 
   Slip slip(Site site) const { return mode.contacts[static_cast<std::size_t>(site)].slip; }
@@ -269,6 +268,28 @@ struct TouchingNow {
   State q;
   Pins pins;
 };
+
+// N below zero by its last digits: friction would push the part on whichever way it slides. What is decided has to be
+// the same for the mirror image, and V' to grow that way (hunt: wild seed 594748).
+TEST(FrictionChoice, where_friction_pushes_either_way_the_mirror_image_is_decided_alike) {
+  System right = soft_system({"part.inertia=null"}), left = right;
+  const State at_right{0.21, right.base_distance + 1e-6, 0, 0, 0, 0}, at_left{-at_right.x, at_right.y, 0, 0, 0, 0};
+  right.x.anchor = at_right.x;
+  left.x.anchor = at_left.x;
+  const Touch edge{Site::a1, Face::bottom}, mirrored{Site::a2, Face::bottom};
+  const double friction = -right.friction * touch_point(right, at_right, edge).normal_force;
+  ASSERT_GT(friction, 0.0);
+  for (const double share : {0.9, 0.3, -0.3, -0.9}) {
+    const Decision d = Decision(right, at_right, force(Direction::x, share * friction), {edge}),
+                   image = Decision(left, at_left, force(Direction::x, -share * friction), {mirrored});
+    const Slip slip = d.slip(Site::a1);
+    ASSERT_TRUE(slip == Slip::plus || slip == Slip::minus) << share;
+    EXPECT_EQ(image.slip(Site::a2), slip == Slip::plus ? Slip::minus : Slip::plus) << share;
+    const double rate = d.series(Site::a1).slip_velocity[1];
+    EXPECT_GT(slip == Slip::plus ? rate : -rate, 0.0) << share;
+    EXPECT_EQ(image.series(Site::a2).slip_velocity[1], -rate) << share;
+  }
+}
 
 // Locked tilt: x' holds still against a force s t while |s| t <= f k t. (Just beyond that higher powers soon matter.)
 TEST(FrictionChoice, at_a_touch_without_damping_the_growth_of_the_forces_decides) {
