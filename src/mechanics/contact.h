@@ -11,6 +11,7 @@
 
 namespace vibratory_alignment {
 
+// One byte each: the states of all contacts are copied in every step.
 enum class Site : std::uint8_t { a1, a2, b1, b2, b1_floor, b2_floor };
 constexpr int kSiteCount = 6;
 

@@ -188,7 +188,7 @@ void ImplicitStep::fill(double h, Segment& segment) const {
     through(contact.depth, [c](const Forces& f) { return f.contact[c].depth; });
     force_through(contact.normal_force, &ContactForce::normal_force, c);
     force_through(contact.tangential_force, &ContactForce::tangential_force, c);
-    if (segment.contacts[static_cast<std::size_t>(contact.site)].slip == Slip::stick)
+    if (slip_of(segment, contact) == Slip::stick)
       std::fill(contact.slip_velocity.begin(), contact.slip_velocity.begin() + kDegree + 1, 0.0);
     else
       through(contact.slip_velocity, [c](const Forces& f) { return f.contact[c].slip_velocity; });

@@ -122,7 +122,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       }
       if (kTanh) layer += a.layer * b.layer;
     };
-    int j = 1;
+    int j = 1;  // two at a time: the loop itself takes a quarter of a turn
     for (; j < k; j += 2) {
       add_products(j);
       add_products(j + 1);

@@ -69,6 +69,11 @@ struct Segment {
   double end_time() const { return (start + duration).value(); }
 };
 
+/// The law of friction that a loaded contact follows during the segment.
+inline Slip slip_of(const Segment& segment, const ContactSeries& contact) {
+  return segment.contacts[static_cast<std::size_t>(contact.site)].slip;
+}
+
 /// State at `t` after the start, 0 <= t <= duration.
 State state_at(const Segment& segment, double t);
 

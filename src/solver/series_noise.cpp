@@ -35,9 +35,7 @@ TangentRow row_of(const ContactKinematics& k) {
   return {k.tangent.x, k.tangent.y, k.lever.x * k.tangent.y - k.lever.y * k.tangent.x};
 }
 
-bool sticks(const Segment& segment, int loaded) {
-  return segment.contacts[static_cast<std::size_t>(segment.loaded[loaded].site)].slip == Slip::stick;
-}
+bool sticks(const Segment& segment, int loaded) { return slip_of(segment, segment.loaded[loaded]) == Slip::stick; }
 
 /// What errors of forces and moment make of V' while some contacts stick: little, where these hold what the errors move
 /// most. Only where it is little beside what they would make of a free part, or decides about what slides.

@@ -18,10 +18,6 @@ constexpr int kMorePowers = 2, kMostMorePowers = 4;
 /// Terms this large leave no room for those of higher powers.
 constexpr double kLarge = 1e150;
 
-Slip slip_of(const Segment& segment, int loaded) {
-  return segment.contacts[static_cast<std::size_t>(segment.loaded[static_cast<std::size_t>(loaded)].site)].slip;
-}
-
 }  // namespace
 
 /// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
@@ -30,7 +26,7 @@ double SeriesReach::layer_step(const Segment& segment) const {
   double shortest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
-    if (slip_of(segment, i) != Slip::regularized) continue;
+    if (slip_of(segment, contact) != Slip::regularized) continue;
     const double eps = system_.regularization;
     const double v0 = contact.slip_velocity[0], pole = 1.57 * eps;
     const double reach = std::min(0.6 * std::sqrt(v0 * v0 + pole * pole), 4.0 * eps);
@@ -64,7 +60,7 @@ bool SeriesReach::may_go_on(const Segment& segment) const {
                        std::abs(segment.omega[segment.order]);
   if (!(last_time_ < longest_ && terms < kLarge)) return false;
   for (int i = 0; i < segment.loaded_count; ++i)
-    if (slip_of(segment, i) == Slip::regularized) return false;
+    if (slip_of(segment, segment.loaded[static_cast<std::size_t>(i)]) == Slip::regularized) return false;
   return true;
 }
 
@@ -74,7 +70,7 @@ bool SeriesReach::ends_by(const Segment& segment, double time) const {
   const double layer = system_.tanh_saturation * system_.regularization;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
-    const Slip slip = slip_of(segment, i);
+    const Slip slip = slip_of(segment, contact);
     const Series& limited = slip == Slip::stick ? contact.tangential_force : contact.slip_velocity;
     Pair value{};
     for (int k = segment.order; k >= 0; --k) value = value * time + Pair{contact.normal_force[k], limited[k]};

@@ -46,10 +46,6 @@ double log2_friction_step(const ContactSeries& contact, double friction, int ord
   return log2_step(scale, contact.tangential_force, order, log2_tolerance);
 }
 
-bool has_law(const Segment& segment, const ContactSeries& contact, Slip slip) {
-  return segment.contacts[static_cast<std::size_t>(contact.site)].slip == slip;
-}
-
 /// True when contacts hold the axis of velocity v: its terms are no more than rounding of what the part has of speed
 /// (`speed`: of all axes) and of the forces that cancel in them. `mobility`: acceleration for a force of one at the far
 /// end of the part.
@@ -85,7 +81,7 @@ double log2_series_step(const System& system, const Segment& segment, double tol
   // a contact that holds the part at rest: all that changes is T
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
-    if (has_law(segment, contact, Slip::stick))
+    if (slip_of(segment, contact) == Slip::stick)
       shortest = std::min(shortest, log2_friction_step(contact, system.friction, segment.order - 1, log2_tolerance));
   }
   return shortest;
@@ -102,7 +98,7 @@ double contact_step(const System& system, const Segment& segment, double toleran
   double shortest = log2_series_step(system, segment, tolerance);
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
-    if (has_law(segment, contact, Slip::regularized))
+    if (slip_of(segment, contact) == Slip::regularized)
       shortest = std::min(shortest, log2_friction_step(contact, system.friction, segment.order, log2_tolerance));
   }
   return std::exp2(shortest);

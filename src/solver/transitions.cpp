@@ -223,7 +223,7 @@ double excess_friction(const System& system, const Segment& segment, double step
   const double h = std::min(step, 1.0);  // nothing may move at all
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
-    if (segment.contacts[static_cast<std::size_t>(contact.site)].slip != Slip::stick) continue;
+    if (slip_of(segment, contact) != Slip::stick) continue;
     const Series& n = contact.normal_force;
     const double beyond = std::abs(contact.tangential_force[0]) - system.friction * std::abs(n[0]);
     const double size = system.friction * (std::abs(n[0]) + std::abs(n[1]) * h + std::abs(n[2]) * h * h);

@@ -147,6 +147,17 @@ TEST(SeriesReach, nothing_is_added_in_the_tanh_layer) {
   EXPECT_EQ(next_order(motion, 1.1 * time), kOrder);
 }
 
+// Rates so high that more powers of them would overflow.
+TEST(SeriesReach, nothing_is_added_to_terms_that_are_nearly_too_large) {
+  for (const double size : {1e140, 1e160}) {
+    Motion motion(Slip::none, -1.5);
+    for (double& term : motion.segment.vx) term *= size;
+    const double time = SeriesReach(motion.system, kTolerance, kTolerance).time(motion.segment);
+    const double last = std::abs(motion.segment.vx[kOrder]);
+    EXPECT_EQ(next_order(motion, 1.1 * time), last < 1e150 ? kOrder + 2 : kOrder) << size;
+  }
+}
+
 // Outside the layer V ends at its edge.
 TEST(SeriesReach, the_edge_of_the_tanh_layer_is_an_event) {
   Motion motion(Slip::plus, 0.0);
