@@ -60,5 +60,34 @@ TEST(LayerForces, follow_their_law_to_the_tolerance_throughout_a_step) {
   }
 }
 
+// Beyond |V|/eps = 1/2 ln(2/tolerance of a step), the thousandth of that asked for, the law counts as sliding: a
+// contact in the layer is not there any more, one that slides not there yet.
+TEST(LayerForces, follow_the_law_of_the_layer_up_to_its_edge_and_no_farther) {
+  for (const double tolerance : {1e-4, 1e-8}) {
+    Scene scene = test::scene_of(test::plain, {"friction.regularization=0.002"});
+    scene.solver.tolerance = tolerance;
+    const double edge = 0.5 * std::log(2.0 / (1e-3 * tolerance)) * *scene.friction->regularization;
+    int within = 0, beyond = 0, crossings = 0;
+    test::run(scene, [&](const Segment& g) {
+      for (int i = 0; i < g.loaded_count; ++i) {
+        const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
+        const bool in_layer = slip_of(g, contact) == Slip::regularized;
+        ++(in_layer ? within : beyond);
+        for (const double share : {0.0, 0.5, 1.0}) {
+          const double v = std::abs(value_at(contact.slip_velocity, g.order, share * g.duration));
+          EXPECT_TRUE(in_layer ? v <= edge * (1.0 + 1e-9) : v >= edge * (1.0 - 1e-9)) << g.start.value() << ": " << v;
+        }
+      }
+      for (int i = 0; i < g.event_count; ++i)
+        if (g.events[static_cast<std::size_t>(i)].kind == EventKind::slip_reversal ||
+            g.events[static_cast<std::size_t>(i)].kind == EventKind::slip)
+          ++crossings;
+    });
+    EXPECT_GT(within, 20) << tolerance;
+    EXPECT_GT(beyond, 20) << tolerance;
+    EXPECT_GT(crossings, 5) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
