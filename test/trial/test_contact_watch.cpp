@@ -1,5 +1,5 @@
-// What is reported of the contacts: impacts, the first touch, peak forces, the mode of motion and when it changes; against
-// closed forms, the events themselves and dense samples.
+// What is reported of the contacts: impacts, the first touch, peak forces, the mode of motion and when it changes;
+// against closed forms, the events themselves and dense samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,8 @@ TEST(Impacts, are_the_touches_out_of_flight) {
         const Event& e = g.events[static_cast<std::size_t>(i)];
         if (e.kind != EventKind::touch) continue;
         // the floor's corners count with their corner
-        const std::size_t spot = static_cast<std::size_t>(e.site) < 4 ? static_cast<std::size_t>(e.site) : static_cast<std::size_t>(e.site) - 2;
+        const std::size_t spot = static_cast<std::size_t>(e.site) < 4 ? static_cast<std::size_t>(e.site)
+                                                                      : static_cast<std::size_t>(e.site) - 2;
         ++touches[spot];
       }
     });
@@ -38,7 +39,8 @@ TEST(Impacts, are_the_touches_out_of_flight) {
 
 TEST(Impacts, the_contact_that_a_trial_starts_in_is_none) {
   // resting on the base, pressed so hard that it stays
-  const TrialResult rest = run(scene_of(test::ball, {"gripper={pressing_force: 2.0}", "initial.y=null", "excitation.amplitude=0.5"}));
+  const TrialResult rest =
+      run(scene_of(test::ball, {"gripper={pressing_force: 2.0}", "initial.y=null", "excitation.amplitude=0.5"}));
   EXPECT_EQ(test::total_impacts(rest), 0);
   EXPECT_FALSE(rest.first_contact);
   EXPECT_GT(rest.peak_force[0], 2.0);
@@ -58,10 +60,12 @@ TEST(FirstContact, has_time_and_speed_of_the_closed_form) {
   EXPECT_EQ(result.first_contact->slip_velocity, 0.0);
 }
 
-// Without base damping the impact is a half wave: N = k d, largest k v/sqrt(k + 1) when the gripper's spring is at ease.
+// Without base damping the impact is a half wave: N = k d, largest k v/sqrt(k + 1) when the gripper's spring is at
+// ease.
 TEST(PeakForce, of_an_undamped_impact) {
   for (const double k : {1e2, 1e4, 1e8}) {
-    Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "base={stiffness: {y: 1.0e4}}", "trial.time_limit=3"});
+    Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "base={stiffness: {y: 1.0e4}}",
+                                        "trial.time_limit=3"});
     scene.base.stiffness_x = scene.base.stiffness_y = k;
     scene.solver.tolerance = 1e-12;
     EXPECT_NEAR(run(scene).peak_force[0], k * 0.3 / std::sqrt(k + 1.0), 1e-9 * std::sqrt(k)) << k;
@@ -88,6 +92,33 @@ TEST(PeakForce, is_that_of_dense_samples) {
   }
 }
 
+// A segment that is barely above all before it: N = 1, then 0.9 + 4 s (1 - s) (n - 0.9) on [0, duration], largest n.
+TEST(PeakForce, grows_by_as_little_as_the_force_does) {
+  const System system = make_system(scene_of(test::ball));
+  for (const double duration : {1e-3, 1.0, 7.0})
+    for (const double largest : {1.0001, 1.05, 1.5}) {
+      Segment segment;
+      segment.order = 2;
+      segment.duration = duration;
+      segment.loaded_count = 1;
+      segment.loaded[0].site = Site::a1;
+      segment.contacts[0] = {Phase::loaded, Face::bottom, Slip::none};
+      ContactWatch watch(system, 1.0);
+      segment.loaded[0].normal_force[0] = 1.0;
+      watch.book(segment);
+      segment.loaded[0].normal_force = {0.9, 4.0 * (largest - 0.9) / duration,
+                                        -4.0 * (largest - 0.9) / (duration * duration)};
+      watch.book(segment);
+      EXPECT_NEAR(watch.peak_force(Spot::a1), largest, 1e-14) << duration;
+      segment.loaded[0].normal_force = {0.9 * largest, 0.09 * largest / duration};
+      watch.book(segment);
+      EXPECT_NEAR(watch.peak_force(Spot::a1), largest, 1e-14) << duration;
+      segment.loaded[0].normal_force = {0.9 * largest, 0.11 * largest / duration};
+      watch.book(segment);
+      EXPECT_NEAR(watch.peak_force(Spot::a1), 1.01 * largest, 1e-14) << duration;
+    }
+}
+
 // Terms that overflow make no peak: the trial must end with the place of it, not go on with the peak before.
 TEST(PeakForce, that_overflows_is_a_failure_with_its_place) {
   const System system = make_system(scene_of(test::ball));
@@ -109,14 +140,16 @@ TEST(PeakForce, that_overflows_is_a_failure_with_its_place) {
 }
 
 TEST(Mode, bouncing_is_impact) {
-  const TrialResult result = run(scene_of(test::ball, {"gripper={pressing_force: 0.3, damping: {y: 0.05}}", "initial.y=null",
-                                                       "excitation={amplitude: 1.0, frequency: 10}", "trial.time_limit=30"}));
+  const TrialResult result =
+      run(scene_of(test::ball, {"gripper={pressing_force: 0.3, damping: {y: 0.05}}", "initial.y=null",
+                                "excitation={amplitude: 1.0, frequency: 10}", "trial.time_limit=30"}));
   EXPECT_EQ(result.mode, Mode::impact);
 }
 
 TEST(Mode, pressed_firmly_is_nonimpact) {
-  const TrialResult result = run(scene_of(test::ball, {"gripper={pressing_force: 1.5, damping: {y: 0.05}}", "initial.y=null",
-                                                       "excitation={amplitude: 1.0, frequency: 10}", "trial.time_limit=30"}));
+  const TrialResult result =
+      run(scene_of(test::ball, {"gripper={pressing_force: 1.5, damping: {y: 0.05}}", "initial.y=null",
+                                "excitation={amplitude: 1.0, frequency: 10}", "trial.time_limit=30"}));
   EXPECT_EQ(result.mode, Mode::nonimpact);
   EXPECT_EQ(test::total_impacts(result), 0);
 }
@@ -125,11 +158,11 @@ TEST(Mode, never_touching_is_none) {
   EXPECT_EQ(run(scene_of(test::ball, {"gripper={anchor: {y: 2.0}}", "initial.y=2.0"})).mode, Mode::none);
 }
 
-// Drops, bounces and stays: impact from its first loss of contact, nonimpact from its last touch, when it does stay for a
-// period. The instants are those of the events.
+// Drops, bounces and stays: impact from its first loss of contact, nonimpact from its last touch, when it does stay for
+// a period. The instants are those of the events.
 TEST(Mode, a_ball_that_comes_to_rest_is_mixed) {
-  const Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.7}, damping: {y: 0.05}}", "initial.y=1.1", "trial.time_limit=60",
-                                            "base={stiffness: {y: 1.0e4}, damping: {y: 60}}"});
+  const Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.7}, damping: {y: 0.05}}", "initial.y=1.1",
+                                            "trial.time_limit=60", "base={stiffness: {y: 1.0e4}, damping: {y: 60}}"});
   std::vector<double> touches;
   double first_loss = NAN;
   for (const test::TimedEvent& e : test::events_of(scene)) {
