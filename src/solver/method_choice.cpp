@@ -26,15 +26,15 @@ struct Kind {
 /// do by a factorization. What sticking adds is softer than the base, the tanh layer is not; two that stick hold the
 /// part.
 constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;
-constexpr std::array<Kind, 9> kKind = {{{1.0, 0.15, 5.0, 0},
-                                        {2.2, 0.17, 5.0, 1},
-                                        {2.2, 0.17, 5.0, 1},
-                                        {1.5, 0.21, 5.5, 0},
-                                        {4.5, 0.21, 5.5, 1},
-                                        {6.0, 1.5, 15.0, 2},
-                                        {1.2, 0.3, 3.2, 3},
-                                        {2.6, 0.32, 3.0, 4},
-                                        {3.1, 0.5, 2.0, 4}}};
+constexpr std::array<Kind, 9> kKind = {{{1.0, 0.165, 5.5, 0},
+                                        {2.2, 0.19, 5.5, 1},
+                                        {2.2, 0.19, 5.5, 1},
+                                        {1.5, 0.23, 6.0, 0},
+                                        {4.5, 0.23, 6.0, 1},
+                                        {6.0, 1.65, 16.5, 2},
+                                        {1.2, 0.33, 3.5, 3},
+                                        {2.6, 0.35, 3.3, 4},
+                                        {3.1, 0.55, 2.2, 4}}};
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
@@ -51,7 +51,8 @@ constexpr int kTrialAfter = 32, kTrialAfterRing = 6, kPaceKnown = 6;
 /// Implicit steps in a ring that do not pay before it is left to the series.
 constexpr int kMostLosses = 2;
 
-/// Evaluations of the forces after which an implicit step is given up: any, and a trial.
+/// Evaluations of the forces after which an implicit step is given up: any, and a trial; in between, what there is
+/// credit for.
 constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 50;
 
 /// Shortest trial, as a multiple of what the series go for a cost of 1.
@@ -146,7 +147,8 @@ StepBounds MethodChoice::bounds(double longest) const {
               sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations};
     case Attempt::ordinary: break;
   }
-  return {longest, 0.0, kMostEvaluations};
+  const auto paid = static_cast<long>(credit_ / kKind[kind_].evaluation);
+  return {longest, 0.0, std::clamp(paid, kMostTrialEvaluations, kMostEvaluations)};
 }
 
 bool MethodChoice::asks_series() {

@@ -195,7 +195,7 @@ void MotionSeries::set_up_contacts(Segment& segment) {
     contact.point = point_index(contact.site);
     contact.force1 = contact.frame.n1 + contact.ratio * contact.frame.t1();
     contact.force2 = contact.frame.n2 + contact.ratio * contact.frame.t2();
-    contact.turning = is_edge(contact.site) && !system_.isotropic;
+    contact.turning = is_edge(contact.site) && !system_.isotropic && system_.phi.moves;
     contact.stiffness = stiffness_of(system_, state.face, segment.cos_phi[0], segment.sin_phi[0]);
     contact.damping = damping_of(system_, state.face, segment.cos_phi[0], segment.sin_phi[0]);
     if (state.slip == Slip::stick) sticking_[sticking_count_++] = index;
@@ -306,7 +306,7 @@ void MotionSeries::expand_contact(const State& start, const DriveForms& drives, 
   drives_ = &drives;
   this->start(start, drives, order, segment);
   set_up_contacts(segment);
-  if (segment.loaded_count == 1 && !contacts_[0].turning && expand_single(segment)) return end_sticking(segment);
+  if (segment.loaded_count == 1 && expand_single(segment)) return end_sticking(segment);
   for (int i = 0; i < segment.loaded_count; ++i) {
     const Contact& contact = contacts_[i];
     point_term(contact.point, 0, segment);

@@ -134,11 +134,11 @@ class MotionSeries {
   bool expand_single(Segment& segment);
   bool expand_single_wide(Segment& segment);
   bool expand_any_single(Segment& segment);
-  template <bool kEdge, bool kTurns>
+  template <bool kEdge, bool kTurns, bool kVaries>
   bool expand_single_by_face(Segment& segment);
-  template <bool kEdge, bool kTurns, bool kLevel>
+  template <bool kEdge, bool kTurns, bool kVaries, bool kLevel>
   bool expand_single_by_law(Segment& segment);
-  template <bool kEdge, bool kTurns, bool kLevel, Law kLaw>
+  template <bool kEdge, bool kTurns, bool kVaries, bool kLevel, Law kLaw>
   bool expand_single_of(Segment& segment);
 
   const System& system_;

@@ -13,24 +13,27 @@ struct LeftFactors {
   Quad turn_push;  ///< c, s of the next power, c, s
   Quad moment;     ///< where T is a series of its own: c, s, and the moments per unit of N and of T
   Quad layer;      ///< tanh law: tanh, tanh, 1 - tanh^2, -
+  Pair face;       ///< k(n) that changes: c, cos^2
 };
 struct RightFactors {
   Quad centre;     ///< x, x, y, y of the next power
   Quad turn_push;  ///< omega, omega, N, N
   Quad moment;     ///< where T is a series of its own: T, T, N, T
   Quad layer;      ///< tanh law: tanh, N, V' of the power before, -
+  Pair face;       ///< k(n) that changes: c, what N grows by per unit of cos^2
 };
 
 }  // namespace
 
-/// The whole expansion for one contact on a base whose stiffness does not turn: the same recurrences, in one loop. All
-/// products of series whose factors are known when the forces of a power are asked for are summed together, for these
-/// forces and for the direction and the centre of the next but one power; what a power itself finds is added as its
-/// last term, by constant factors: the way from one velocity to the next, on which the powers wait for one another, is
-/// kept short. n and t lie along the axes of the frame: kLevel, n along the second. T of what sticks takes V' out: of
-/// what the accelerations without it make of V', and of what turning adds. False, with nothing but the start expanded,
-/// where V' has to be taken out twice or nothing can be held.
-template <bool kEdge, bool kTurns, bool kLevel, MotionSeries::Law kLaw>
+/// The whole expansion for one contact: the same recurrences, in one loop. All products of series whose factors are
+/// known when the forces of a power are asked for are summed together, for these forces and for the direction and the
+/// centre of the next but one power; what a power itself finds is added as its last term, by constant factors: the way
+/// from one velocity to the next, on which the powers wait for one another, is kept short. n and t lie along the axes
+/// of the frame: kLevel, n along the second. k(n) and h(n) of a face that turns on a base stiffer one way are constants
+/// and their parts of cos^2 phi (kVaries). T of what sticks takes V' out: of what the accelerations without it make of
+/// V', and of what turning adds. False, with nothing but the start expanded, where V' has to be taken out twice or
+/// nothing can be held.
+template <bool kEdge, bool kTurns, bool kVaries, bool kLevel, MotionSeries::Law kLaw>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment) {
   constexpr bool kTanh = kLaw == Law::layer, kSticks = kLaw == Law::sticks, kOwnT = kTanh || kSticks;
   Contact& contact = contacts_[0];
@@ -52,6 +55,9 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   const double drag_1 = f.t1(), drag_2 = f.t2();
   const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
                fast_phi = system_.phi.inverse_inertia, slope = kTanh ? 1.0 / system_.regularization : 0.0;
+  // k(n) and h(n) per unit of cos^2 phi
+  const double level = kLevel ? 1.0 : -1.0, stiffness_share = level * (system_.stiffness_y - system_.stiffness_x),
+               damping_share = level * (system_.damping_y - system_.damping_x);
   // moments of both about the mass centre per unit of (cos, sin) times them: corners
   const double push_c_arm = push_1 * b0 + push_2 * beta, push_s_arm = push_2 * b0 - push_1 * beta,
                drag_c_arm = drag_1 * b0 + drag_2 * beta, drag_s_arm = drag_2 * b0 - drag_1 * beta;
@@ -102,6 +108,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     if (k == 0) drag_moment_0 = kEdge ? drag_moment : drag_c_arm * c_0 + drag_s_arm * s_0;
     turn_push = centre = Quad{};
     Quad moments{}, layer{};
+    Pair face{};
     double moment = 0.0;
     if (kTurns) {
       const double ck = segment.cos_phi[k], sk = segment.sin_phi[k];
@@ -111,6 +118,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       if (kEdge) right[k].centre = Quad{segment.x[n], segment.x[n], segment.y[n], segment.y[n]};
     }
     if (kTanh) left[k].layer = Quad{};
+    if (kVaries) left[k].face = Pair{};
     const auto add_products = [&](int j) {
       const LeftFactors& a = left[j];
       const RightFactors& b = right[k - j];
@@ -121,6 +129,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
         if (kEdge && !kOwnT) moment += push_moment[j] * b.turn_push[2];
       }
       if (kTanh) layer += a.layer * b.layer;
+      if (kVaries) face += a.face * b.face;
     };
     int j = 1;  // two at a time: the loop itself takes a quarter of a turn
     for (; j < k; j += 2) {
@@ -134,7 +143,16 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     }
 
     // N, V and T of power k
-    const double force_n = contact.stiffness * series.depth[k] + (contact.damping * n) * series.depth[n];
+    double force_n = contact.stiffness * series.depth[k] + (contact.damping * n) * series.depth[n];
+    if (kVaries) {
+      const double ck = segment.cos_phi[k];
+      right[k].face = Pair{ck, stiffness_share * series.depth[k] + (damping_share * n) * series.depth[n]};
+      if (k > 0) {
+        const double square = face[0] + 2.0 * c_0 * ck;
+        left[k].face = Pair{ck, square};
+        force_n += face[1] + square * right[0].face[1];
+      }
+    }
     const double v = along_t(n * slip_1, point[n][0], n * slip_2, point[n][1]);
     double force_t = kSticks ? 0.0 : contact.ratio * force_n;
     if (kTanh && k == 0) {
@@ -225,23 +243,27 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   return true;
 }
 
-template <bool kEdge, bool kTurns, bool kLevel>
+template <bool kEdge, bool kTurns, bool kVaries, bool kLevel>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_by_law(Segment& segment) {
-  if (contacts_[0].slip == Slip::stick) return expand_single_of<kEdge, kTurns, kLevel, Law::sticks>(segment);
-  if (contacts_[0].slip == Slip::regularized) return expand_single_of<kEdge, kTurns, kLevel, Law::layer>(segment);
-  return expand_single_of<kEdge, kTurns, kLevel, Law::slides>(segment);
+  if (contacts_[0].slip == Slip::stick) return expand_single_of<kEdge, kTurns, kVaries, kLevel, Law::sticks>(segment);
+  if (contacts_[0].slip == Slip::regularized)
+    return expand_single_of<kEdge, kTurns, kVaries, kLevel, Law::layer>(segment);
+  return expand_single_of<kEdge, kTurns, kVaries, kLevel, Law::slides>(segment);
 }
 
-template <bool kEdge, bool kTurns>
+template <bool kEdge, bool kTurns, bool kVaries>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_by_face(Segment& segment) {
-  return contacts_[0].frame.n2 != 0.0 ? expand_single_by_law<kEdge, kTurns, true>(segment)
-                                      : expand_single_by_law<kEdge, kTurns, false>(segment);
+  return contacts_[0].frame.n2 != 0.0 ? expand_single_by_law<kEdge, kTurns, kVaries, true>(segment)
+                                      : expand_single_by_law<kEdge, kTurns, kVaries, false>(segment);
 }
 
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_any_single(Segment& segment) {
+  if (contacts_[0].turning) return expand_single_by_face<true, true, true>(segment);
   if (is_edge(contacts_[0].site))
-    return system_.phi.moves ? expand_single_by_face<true, true>(segment) : expand_single_by_face<true, false>(segment);
-  return system_.phi.moves ? expand_single_by_face<false, true>(segment) : expand_single_by_face<false, false>(segment);
+    return system_.phi.moves ? expand_single_by_face<true, true, false>(segment)
+                             : expand_single_by_face<true, false, false>(segment);
+  return system_.phi.moves ? expand_single_by_face<false, true, false>(segment)
+                           : expand_single_by_face<false, false, false>(segment);
 }
 
 #ifdef __x86_64__

@@ -2,6 +2,7 @@
 // one sliding contact, so that a series step of length 1 has the pace 1.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -14,8 +15,13 @@ namespace {
 
 constexpr double kFar = 1e9;
 
-/// An implicit step costs 0.6 + 0.15 an evaluation + 5.0 a factorization: 6.
+/// A usual implicit step of one sliding contact, and its cost: 0.6 + 0.165 an evaluation.
 constexpr StepEffort kEffort{36, 0};
+constexpr double kUsual = 0.6 + 36 * 0.165;
+constexpr double kUsualStuck = 0.6 + 36 * 0.23;  ///< of one that sticks
+
+/// What a series step adds to the credit for each 1 of its cost; the credit for the first trial and for later ones.
+constexpr double kShare = 0.12, kFirst = 1.65, kLater = 0.8;
 
 ContactStates contacts_that(std::initializer_list<Slip> slips) {
   ContactStates contacts{};
@@ -45,16 +51,28 @@ bool tries_after(int steps, MethodChoice& choice, const ContactStates& contacts 
   return tries(choice, contacts, longest);
 }
 
-/// A choice whose first trial has just paid 50.
+/// Series steps of length 1 until an implicit step is tried.
+int steps_until_trial(MethodChoice& choice, const ContactStates& contacts = kSliding, double longest = kFar) {
+  int steps = 0;
+  while (steps < 1000 && !tries(choice, contacts, longest)) ++steps;
+  return steps;
+}
+
+/// So many steps are the first to reach this number.
+void expect_first_from(double number, int steps) { EXPECT_NEAR(steps, number + 0.5, 0.5 + 1e-9); }
+
+/// A choice whose first trial has just paid 50, and its credit.
 MethodChoice rich() {
   MethodChoice choice;
-  EXPECT_TRUE(tries_after(83, choice));
-  choice.settle_implicit(56.0, kFar, kEffort);
+  expect_first_from(kFirst * kUsual / kShare, steps_until_trial(choice));  // 90
+  choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   EXPECT_TRUE(choice.implicit());
   return choice;
 }
+constexpr double kRich = 90 * kShare + 50.0;
 
-/// Implicit steps until they are given up, each of which goes as far as a series step of this pace and so loses 5.
+/// Implicit steps until they are given up, each of which goes as far as a series step of this pace and so loses kLoss.
+constexpr double kLoss = kUsual - 1.0;
 int steps_until_dropped(MethodChoice& choice, double pace = 1.0) {
   int steps = 0;
   for (; choice.implicit(); ++steps) choice.settle_implicit(pace, kFar, kEffort);
@@ -81,57 +99,59 @@ double cost_of(const ContactStates& contacts, double series_cost, const StepEffo
 
 TEST(MethodChoice, the_first_trial_has_to_be_earned) {
   MethodChoice choice;
-  // 0.12 n >= 1.65 x 6
-  EXPECT_TRUE(tries_after(83, choice));
+  expect_first_from(kFirst * kUsual / kShare, steps_until_trial(choice));
 }
 
-// A series step that costs 1.2 adds 0.144; 200 of that cost go 166.7.
+// A series step costs 1.2; 200 of that cost go 166.7.
 TEST(MethodChoice, the_first_trial_in_the_tanh_layer_has_to_be_earned_twice_where_the_way_is_short) {
   const ContactStates layer = contacts_that({Slip::regularized});
   MethodChoice near, far;
-  EXPECT_TRUE(tries_after(131, near, layer, 166.0));  // 1.65 x 11.4
-  EXPECT_TRUE(tries_after(64, far, layer, 167.0));    // 0.8 x 11.4
+  const double usual = 0.6 + 36 * 0.33, earned = 1.2 * kShare;
+  expect_first_from(kFirst * usual / earned, steps_until_trial(near, layer, 166.0));
+  expect_first_from(kLater * usual / earned, steps_until_trial(far, layer, 167.0));
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   MethodChoice choice;
-  ASSERT_TRUE(tries_after(83, choice));
-  choice.settle_implicit(0.0, kFar, {41, 1});  // 9.96 - 11.75
+  const int earned = steps_until_trial(choice);
+  choice.settle_implicit(0.0, kFar, {41, 1});
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(55, choice));  // (0.8 x 6 + 1.79)/0.12
+  const double debt = 0.6 + 41 * 0.165 + 5.5 - earned * kShare;
+  EXPECT_GT(debt, 0.0);
+  expect_first_from((kLater * kUsual + debt) / kShare, steps_until_trial(choice));
 }
 
 TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
   MethodChoice choice = rich();
-  EXPECT_EQ(steps_until_dropped(choice), 12);  // 59.96/5
+  expect_first_from(kRich / kLoss, steps_until_dropped(choice));
 }
 
 TEST(MethodChoice, gains_are_saved_up_to_a_bound) {
   MethodChoice choice = rich();
-  for (int i = 0; i < 100; ++i) choice.settle_implicit(56.0, kFar, kEffort);
-  EXPECT_NEAR(steps_until_dropped(choice), 60, 1);  // 300/5, but for rounding
+  for (int i = 0; i < 100; ++i) choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
+  expect_first_from(300.0 / kLoss, steps_until_dropped(choice));
 }
 
 TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
   MethodChoice loser = rich(), winner = rich();
   for (int i = 0; i < 100; ++i) loser.settle_implicit(1.0, 1.0, kEffort);
-  EXPECT_EQ(steps_until_dropped(loser), 12);
-  winner.settle_implicit(26.0, 26.0, kEffort);
-  EXPECT_EQ(steps_until_dropped(winner), 16);  // 79.96/5
+  expect_first_from(kRich / kLoss, steps_until_dropped(loser));
+  winner.settle_implicit(kUsual + 20.0, kUsual + 20.0, kEffort);
+  expect_first_from((kRich + 20.0) / kLoss, steps_until_dropped(winner));
 }
 
 TEST(MethodChoice, a_trial_has_twice_the_length_that_would_pay) {
   MethodChoice choice = rich();
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
 }
 
 TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
   MethodChoice choice;
-  ASSERT_TRUE(tries_after(83, choice));
+  ASSERT_LT(steps_until_trial(choice), 100);
   EXPECT_EQ(choice.bounds(kFar).longest, kFar);
   EXPECT_DOUBLE_EQ(choice.bounds(kFar).shortest, 2.0);
   EXPECT_EQ(choice.bounds(kFar).evaluations, 50);
-  choice.settle_implicit(56.0, kFar, kEffort);
+  choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   ASSERT_TRUE(choice.implicit());
   EXPECT_EQ(choice.bounds(kFar).longest, kFar);
   EXPECT_EQ(choice.bounds(kFar).shortest, 0.0);
@@ -142,21 +162,30 @@ TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
 TEST(MethodChoice, costs_follow_the_laws_of_the_contacts) {
   struct Kind {
     std::initializer_list<Slip> slips;
-    double series, usual, evaluation, factorization;
+    double series, evaluation, factorization;
   };
   constexpr Slip plus = Slip::plus, minus = Slip::minus, stick = Slip::stick, layer = Slip::regularized;
-  const Kind kinds[] = {{{plus}, 1.0, 6.0, 0.15, 5.0},           {{plus, minus}, 2.2, 6.72, 0.17, 5.0},
-                        {{stick}, 1.5, 8.16, 0.21, 5.5},         {{stick, plus}, 4.5, 8.16, 0.21, 5.5},
-                        {{stick, stick}, 6.0, 54.6, 1.5, 15.0},  {{layer}, 1.2, 11.4, 0.3, 3.2},
-                        {{layer, minus}, 2.6, 12.12, 0.32, 3.0}, {{layer, layer}, 3.1, 18.6, 0.5, 2.0}};
+  const Kind kinds[] = {{{plus}, 1.0, 0.165, 5.5},        {{plus, minus}, 2.2, 0.19, 5.5},   {{stick}, 1.5, 0.23, 6.0},
+                        {{stick, plus}, 4.5, 0.23, 6.0},  {{stick, stick}, 6.0, 1.65, 16.5}, {{layer}, 1.2, 0.33, 3.5},
+                        {{layer, minus}, 2.6, 0.35, 3.3}, {{layer, layer}, 3.1, 0.55, 2.2}};
   for (const Kind& kind : kinds) {
     const ContactStates contacts = contacts_that(kind.slips);
     MethodChoice choice;
     for (int i = 0; i < 500 && !tries(choice, contacts); ++i) {
     }
-    EXPECT_NEAR(choice.trial_length(), 2.0 * kind.usual / kind.series, 1e-12);
+    EXPECT_NEAR(choice.trial_length(), 2.0 * (0.6 + 36 * kind.evaluation) / kind.series, 1e-12);
     EXPECT_NEAR(cost_of(contacts, kind.series, {40, 2}), 0.6 + 40 * kind.evaluation + 2 * kind.factorization, 1e-9);
   }
+}
+
+TEST(MethodChoice, an_implicit_step_is_given_up_when_it_has_taken_the_credit) {
+  MethodChoice choice = rich();
+  double credit = kRich;
+  for (; choice.implicit(); credit -= kLoss) {
+    EXPECT_EQ(choice.bounds(kFar).evaluations, std::clamp(static_cast<long>(credit / 0.165), 50L, 130L));
+    choice.settle_implicit(1.0, kFar, kEffort);
+  }
+  EXPECT_LT(credit / 0.165, 50.0);  // all three have been seen
 }
 
 TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace) {
@@ -164,7 +193,7 @@ TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace
   for (int i = 0; i < 40; ++i) tries(choice);
   choice.earn();
   choice.settle_series(0.1, 0.1);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
 }
 
 TEST(MethodChoice, nothing_is_tried_where_the_series_have_gone_nowhere) {
@@ -200,8 +229,8 @@ TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
   MethodChoice choice = rich();
   choice.ring();
   choice.settle_implicit(1.0, kFar, kEffort);
-  choice.settle_implicit(6.0, kFar, kEffort);
-  EXPECT_EQ(steps_until_dropped(choice), 11);  // 54.96/5
+  choice.settle_implicit(kUsual + 1.0, kFar, kEffort);
+  expect_first_from((kRich + 1.0) / kLoss - 1.0, steps_until_dropped(choice));
 }
 
 TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
@@ -211,7 +240,7 @@ TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
   std::vector<int> asked;
   for (int steps = 1; steps < 200; ++steps) {
     if (choice.asks_series()) asked.push_back(steps);
-    choice.settle_implicit(6.0, kFar, kEffort);
+    choice.settle_implicit(kUsual, kFar, kEffort);
   }
   EXPECT_EQ(asked, (std::vector<int>{2, 4, 8, 16, 32, 64, 96, 128, 160, 192}));
 }
@@ -220,27 +249,27 @@ TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
 TEST(MethodChoice, a_faster_pace_of_the_series_is_learned_and_costs_credit) {
   MethodChoice faster = rich(), little_faster = rich();
   faster.learn_pace(8.0);
-  EXPECT_DOUBLE_EQ(faster.trial_length(), 5.5 * 12.0);
-  EXPECT_EQ(steps_until_dropped(faster, 5.5), 10);  // 49.96/5
+  EXPECT_DOUBLE_EQ(faster.trial_length(), 5.5 * 2.0 * kUsual);
+  expect_first_from((kRich - 10.0) / kLoss, steps_until_dropped(faster, 5.5));
   little_faster.learn_pace(1.0);
-  EXPECT_DOUBLE_EQ(little_faster.trial_length(), 1.125 * 12.0);
-  EXPECT_EQ(steps_until_dropped(little_faster, 1.125), 11);  // 59.96/1.125/5
+  EXPECT_DOUBLE_EQ(little_faster.trial_length(), 1.125 * 2.0 * kUsual);
+  expect_first_from(kRich / 1.125 / kLoss, steps_until_dropped(little_faster, 1.125));
 }
 
 TEST(MethodChoice, a_slower_pace_is_only_learned_from_steps_of_the_series) {
   MethodChoice choice = rich();
   choice.learn_pace(0.7);  // x 1.25 < 1
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
-  EXPECT_EQ(steps_until_dropped(choice), 12);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
+  expect_first_from(kRich / kLoss, steps_until_dropped(choice));
 }
 
 TEST(MethodChoice, what_is_learned_of_one_law_is_of_that_law) {
   MethodChoice choice = rich();
   choice.look_at(contacts_that({Slip::stick}));
   choice.learn_pace(12.0);  // 1.25 x 12/1.5 = 10
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 2.0 * 8.16);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 2.0 * kUsualStuck);
   choice.look_at(kSliding);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
 }
 
 TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
@@ -258,7 +287,7 @@ TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
     choice.earn();
     choice.settle_series(2.0, kFar);
   }
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 24.0);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 2.0 * kUsual);
 }
 
 TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
@@ -269,14 +298,14 @@ TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
   EXPECT_TRUE(tries_after(6, choice, two));
   choice.look_at(kSliding);  // whose pace is still known
   EXPECT_TRUE(choice.implicit());
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 12.0);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
 }
 
 TEST(MethodChoice, a_contact_that_begins_to_stick_goes_on_at_the_pace_of_the_one_that_slid) {
   MethodChoice choice = rich();
   choice.look_at(contacts_that({Slip::stick}));
   EXPECT_TRUE(choice.implicit());
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 8.16);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsualStuck);
 }
 
 TEST(MethodChoice, the_tanh_layer_is_stiffer_than_what_slides) {
@@ -348,7 +377,7 @@ TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
   ASSERT_TRUE(choice.starts_passing_over(1.0, 501.0, 1e-3));
   choice.settle_implicit(0.0, kFar, {1000, 1000});
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(83, choice));
+  expect_first_from(kFirst * kUsual / kShare, steps_until_trial(choice));
 }
 
 }  // namespace
