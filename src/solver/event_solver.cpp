@@ -260,11 +260,9 @@ void EventSolver::go_to_end() {
 /// happen. False when that is too short to be worth it.
 bool EventSolver::leap(double longest, FoundEvents& found) {
   if (!flight_.exact()) return false;
-  for (const Recovery& recovery : mode_.recoveries)
-    if (recovery.deformation > 0.0) return false;
   const double rate = flight_.rate(segment_.flight_time), series_rate = flight_.series_rate();
   const FlightOutlook outlook = look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins,
-                                           outcomes_, std::min(longest, kLongestFlightSegment / rate));
+                                           mode_.recoveries, outcomes_, std::min(longest, kLongestFlightSegment / rate));
   if (!outlook.lands && outlook.time < longest && outlook.time * series_rate < kShortestFlight) return false;
   segment_.flight = &flight_;
   segment_.order = 0;

@@ -72,8 +72,14 @@ struct Nearest {
 class Search {
  public:
   Search(const System& system, const Flight& flight, double t, const ContactStates& contacts, const Pins& pins,
-         const OutcomeGuards& outcomes)
-      : system_(system), flight_(flight), t_(t), contacts_(contacts), pins_(pins), outcomes_(outcomes) {}
+         const Recoveries& recoveries, const OutcomeGuards& outcomes)
+      : system_(system),
+        flight_(flight),
+        t_(t),
+        contacts_(contacts),
+        pins_(pins),
+        recoveries_(recoveries),
+        outcomes_(outcomes) {}
 
   FlightOutlook run(const State& state, double longest) {
     FlightOutlook outlook;
@@ -172,6 +178,8 @@ class Search {
   /// back from there see together leaves no time for another one.
   bool lands(const FlightView& view, const Nearest& nearest, Face pinned, FlightOutlook& outlook) const {
     if (nearest.is_outcome || !(nearest.time > 0.0)) return false;
+    // a base that recovers is touched later than one that has recovered
+    if (recoveries_[static_cast<std::size_t>(nearest.site)].deformation > 0.0) return false;
     const Region region = site_region(system_, nearest.site, nearest.half);
     int crossed = 0, undecided = 0;
     for (int j = 0; j < region.count; ++j) {
@@ -268,15 +276,16 @@ class Search {
   double t_;
   const ContactStates& contacts_;
   const Pins& pins_;
+  const Recoveries& recoveries_;
   const OutcomeGuards& outcomes_;
 };
 
 }  // namespace
 
 FlightOutlook look_ahead(const System& system, const Flight& flight, double t, const State& state,
-                         const ContactStates& contacts, const Pins& pins, const OutcomeGuards& outcomes,
-                         double longest) {
-  return Search(system, flight, t, contacts, pins, outcomes).run(state, longest);
+                         const ContactStates& contacts, const Pins& pins, const Recoveries& recoveries,
+                         const OutcomeGuards& outcomes, double longest) {
+  return Search(system, flight, t, contacts, pins, recoveries, outcomes).run(state, longest);
 }
 
 }  // namespace vibratory_alignment

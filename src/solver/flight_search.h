@@ -19,6 +19,6 @@ struct FlightOutlook {
 /// nothing about what follows.
 [[gnu::noinline]] FlightOutlook look_ahead(const System& system, const Flight& flight, double t, const State& state,
                                            const ContactStates& contacts, const Pins& pins,
-                                           const OutcomeGuards& outcomes, double longest);
+                                           const Recoveries& recoveries, const OutcomeGuards& outcomes, double longest);
 
 }  // namespace vibratory_alignment
