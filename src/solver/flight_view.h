@@ -50,8 +50,8 @@ class FlightView {
   double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
 
  private:
-  void turn_edge(PointMotion& motion) const;
-  void turn_corner(const Vec2& r, PointMotion& motion) const;
+  [[gnu::noinline]] void turn_edge(PointMotion& motion) const;
+  [[gnu::noinline]] void turn_corner(const Vec2& r, PointMotion& motion) const;
   void add_turning_jerk(double reach, PointMotion& motion) const;
 
   const System& system_;
