@@ -304,7 +304,7 @@ FlightOutlook look_at_dip(const Recoveries& recoveries) {
   drives.direction[0] = Direction::y;
   drives.form[0] = {};
   drives.form[0].constant = 2.0 * system.y.inertia;
-  const State state{0.21, system.base_distance + 0.1, 0.0, 0.0, -1.0, 0.0};
+  const State state{-0.21, system.base_distance + 0.1, 0.0, 0.0, -1.0, 0.0};
   Flight flight(1);
   flight.begin(system, state, drives, {});
   return look_ahead(system, flight, 0.0, state, {}, {}, recoveries, {}, 3.0);
@@ -321,8 +321,9 @@ TEST(Flight, a_dip_under_a_constant_force_is_a_landing) {
 // left behind is not in its way.
 TEST(Flight, a_base_that_recovers_is_not_landed_on) {
   const auto site = static_cast<std::size_t>(look_at_dip({}).event.site);
+  ASSERT_NE(site, 0u);
   Recoveries same{}, other{};
-  same[site] = other[site == 0 ? 1 : 0] = {1e-3, 0.1, Face::bottom};
+  same[site] = other[0] = {1e-3, 0.1, Face::bottom};
   const FlightOutlook above = look_at_dip(same);
   EXPECT_FALSE(above.lands);
   EXPECT_LT(above.time, kDip);
