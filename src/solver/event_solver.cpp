@@ -261,8 +261,9 @@ void EventSolver::go_to_end() {
 bool EventSolver::leap(double longest, FoundEvents& found) {
   if (!flight_.exact()) return false;
   const double rate = flight_.rate(segment_.flight_time), series_rate = flight_.series_rate();
-  const FlightOutlook outlook = look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins,
-                                           mode_.recoveries, outcomes_, std::min(longest, kLongestFlightSegment / rate));
+  const FlightOutlook outlook =
+      look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins, mode_.recoveries,
+                 outcomes_, std::min(longest, kLongestFlightSegment / rate));
   if (!outlook.lands && outlook.time < longest && outlook.time * series_rate < kShortestFlight) return false;
   segment_.flight = &flight_;
   segment_.order = 0;

@@ -14,9 +14,9 @@ struct FlightOutlook {
   State end;  ///< the state at `time`
 };
 
-/// Looks from time t of the flight, at which its state is `state` (without velocity in coordinates that do not move), at
-/// most `longest` ahead. `longest` is reached only when nothing happens until then; a shorter time without event tells
-/// nothing about what follows.
+/// Looks from time t of the flight, at which its state is `state` (without velocity in coordinates that do not move),
+/// at most `longest` ahead. `longest` is reached only when nothing happens until then; a shorter time without event
+/// tells nothing about what follows. `recoveries`: what sites have left behind at t; none of these is seen to land.
 [[gnu::noinline]] FlightOutlook look_ahead(const System& system, const Flight& flight, double t, const State& state,
                                            const ContactStates& contacts, const Pins& pins,
                                            const Recoveries& recoveries, const OutcomeGuards& outcomes, double longest);

@@ -50,6 +50,7 @@ class FlightView {
   double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
 
  private:
+  // not inlined: what does not turn is not to pay for room that turning takes
   [[gnu::noinline]] void turn_edge(PointMotion& motion) const;
   [[gnu::noinline]] void turn_corner(const Vec2& r, PointMotion& motion) const;
   void add_turning_jerk(double reach, PointMotion& motion) const;

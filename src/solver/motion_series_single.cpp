@@ -29,10 +29,10 @@ struct RightFactors {
 /// known when the forces of a power are asked for are summed together, for these forces and for the direction and the
 /// centre of the next but one power; what a power itself finds is added as its last term, by constant factors: the way
 /// from one velocity to the next, on which the powers wait for one another, is kept short. n and t lie along the axes
-/// of the frame: kLevel, n along the second. k(n) and h(n) of a face that turns on a base stiffer one way are constants
-/// and their parts of cos^2 phi (kVaries). T of what sticks takes V' out: of what the accelerations without it make of
-/// V', and of what turning adds. False, with nothing but the start expanded, where V' has to be taken out twice or
-/// nothing can be held.
+/// of the frame: kLevel, n along the second. k(n) and h(n) of a face that turns on a base stiffer one way are a
+/// constant and a multiple of cos^2 phi (kVaries). T of what sticks takes V' out: of what the accelerations without it
+/// make of V', and of what turning adds. False, with nothing but the start expanded, where V' has to be taken out twice
+/// or nothing can be held.
 template <bool kEdge, bool kTurns, bool kVaries, bool kLevel, MotionSeries::Law kLaw>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment) {
   constexpr bool kTanh = kLaw == Law::layer, kSticks = kLaw == Law::sticks, kOwnT = kTanh || kSticks;
@@ -55,7 +55,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   const double drag_1 = f.t1(), drag_2 = f.t2();
   const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
                fast_phi = system_.phi.inverse_inertia, slope = kTanh ? 1.0 / system_.regularization : 0.0;
-  // k(n) and h(n) per unit of cos^2 phi
+  // what k(n) and h(n) grow by per unit of cos^2 phi
   const double level = kLevel ? 1.0 : -1.0, stiffness_share = level * (system_.stiffness_y - system_.stiffness_x),
                damping_share = level * (system_.damping_y - system_.damping_x);
   // moments of both about the mass centre per unit of (cos, sin) times them: corners

@@ -44,13 +44,6 @@ bool tries(MethodChoice& choice, const ContactStates& contacts = kSliding, doubl
   return false;
 }
 
-/// So many series steps of length 1; true when an implicit step is tried after the last of them and not before.
-bool tries_after(int steps, MethodChoice& choice, const ContactStates& contacts = kSliding, double longest = kFar) {
-  for (int i = 0; i < steps; ++i)
-    if (tries(choice, contacts, longest)) return false;
-  return tries(choice, contacts, longest);
-}
-
 /// Series steps of length 1 until an implicit step is tried.
 int steps_until_trial(MethodChoice& choice, const ContactStates& contacts = kSliding, double longest = kFar) {
   int steps = 0;
@@ -210,19 +203,19 @@ TEST(MethodChoice, a_ring_that_does_not_pay_is_left_to_the_series) {
   MethodChoice choice = rich();
   choice.ring();
   EXPECT_EQ(steps_until_dropped(choice), 2);
-  EXPECT_TRUE(tries_after(6, choice));
+  EXPECT_EQ(steps_until_trial(choice), 6);
   EXPECT_EQ(steps_until_dropped(choice), 2);
-  EXPECT_TRUE(tries_after(6, choice));
+  EXPECT_EQ(steps_until_trial(choice), 6);
 }
 
 TEST(MethodChoice, a_trial_in_a_ring_that_is_given_up_is_not_repeated_so_soon) {
   MethodChoice choice = rich();
   choice.ring();
   steps_until_dropped(choice);
-  ASSERT_TRUE(tries_after(6, choice));
+  ASSERT_EQ(steps_until_trial(choice), 6);
   choice.settle_implicit(0.0, kFar, kEffort);
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(32, choice));
+  EXPECT_EQ(steps_until_trial(choice), 32);
 }
 
 TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
@@ -276,7 +269,7 @@ TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
   MethodChoice choice = rich();
   choice.leave_contact();
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(32, choice));
+  EXPECT_EQ(steps_until_trial(choice), 32);
 }
 
 TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
@@ -295,7 +288,7 @@ TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
   const ContactStates two = contacts_that({Slip::plus, Slip::plus});
   choice.look_at(two);
   EXPECT_FALSE(choice.implicit());
-  EXPECT_TRUE(tries_after(6, choice, two));
+  EXPECT_EQ(steps_until_trial(choice, two), 6);
   choice.look_at(kSliding);  // whose pace is still known
   EXPECT_TRUE(choice.implicit());
   EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
