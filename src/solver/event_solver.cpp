@@ -55,6 +55,9 @@ constexpr double kForceShare = 0.1;
 /// Events in a row that advance time by nothing: more than this is no motion but a contradiction.
 constexpr int kMaxEventsWithoutProgress = 100;
 
+/// From so many on the polynomials of an implicit step contradict what the series have decided: these go on.
+constexpr int kContradiction = 4;
+
 /// A base deformation that is nothing (relative to lengths of order one).
 constexpr double kNoDeformation = 1e-18;
 
@@ -318,10 +321,22 @@ double EventSolver::direction_step(double step, double point_tolerance) {
 double EventSolver::contact_step(double longest, const DriveForms& drives) {
   // to a kink or limit that is here already, when rounding left nothing on the way, the series go
   if (method_ == ContactMethod::series || longest == 0.0) return series_contact_step(longest, drives);
+  if (contradicted()) {
+    believe_state();
+    return series_contact_step(longest, drives);
+  }
   if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
   const double step = implicit_contact_step({longest}, drives);
   if (step == 0.0) fail("an implicit step does not converge");
   return step;
+}
+
+/// True when the series of a contact step have an event within `step`.
+bool EventSolver::has_event(double step, const DriveForms& drives) {
+  FoundEvents found;
+  segment_.duration = step;
+  find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
+  return found.count > 0;
 }
 
 /// Automatic: one by the method that is chosen.
@@ -329,10 +344,12 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
   choice_.look_at(segment_.contacts);
   if (choice_.may_pass_over()) {
     const double step = series_contact_step(longest, drives);
-    if (!choice_.starts_passing_over(step, longest, normal_force_change(segment_, std::min(step, longest)))) {
+    const double change = normal_force_change(segment_, std::min(step, longest));
+    if (!choice_.passing_over_pays(step, longest, change) || has_event(std::min(step, longest), drives)) {
       choice_.earn();
       return step;
     }
+    choice_.start_passing_over(step);
   } else if (choice_.starts_trial(longest)) {
     implicit_.suggest(choice_.trial_length());
   } else if (choice_.asks_series()) {
@@ -365,6 +382,23 @@ bool EventSolver::shorten_implicit_step(double step) {
   const bool taken = implicit_.retake(step, segment_, counts_);
   implicit_length_ = taken ? step : kInfinity;
   return taken;
+}
+
+/// True when events have followed each other at the present time, one undoing the other.
+bool EventSolver::contradicted() const { return events_without_progress_ >= kContradiction; }
+
+/// The end of an implicit step that was cut short at V = 0 has another V, by the error of the step: what slides as that
+/// says does so. Where V says the contrary of what friction has decided, and that goes on, V' is such an error as well.
+void EventSolver::believe_state() {
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const ContactState& contact = mode_.contacts[i];
+    if (contact.phase != Phase::loaded || (contact.slip != Slip::plus && contact.slip != Slip::minus)) continue;
+    const double v = contact_kinematics(system_, state_, static_cast<Site>(i), contact.face).slip_velocity;
+    const double along = contact.slip == Slip::plus ? v : -v;
+    if (along > 0.0) mode_.pins[i].slip = 0;
+    if (along < 0.0 && events_without_progress_ >= 2 * kContradiction)
+      mode_.pins[i].slip = std::max(mode_.pins[i].slip, 2);
+  }
 }
 
 /// Evaluations and factorizations until now.
@@ -473,7 +507,7 @@ const Segment& EventSolver::advance(double limit) {
       if (implicit_now_ && found.time > 0.0) shorten_implicit_step(found.time);
     }
   }
-  if (contact && method_ == ContactMethod::automatic && end > 0.0) settle(segment_.duration, end);
+  if (contact && method_ == ContactMethod::automatic && end > 0.0 && !contradicted()) settle(segment_.duration, end);
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
     fail("the step has become too short");

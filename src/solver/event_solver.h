@@ -34,8 +34,11 @@ class EventSolver final : public Solver {
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
   double chosen_contact_step(double longest, const DriveForms& drives);
+  bool has_event(double step, const DriveForms& drives);
   double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
   bool shorten_implicit_step(double step);
+  bool contradicted() const;
+  void believe_state();
   StepEffort effort() const;
   void settle(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.

@@ -84,7 +84,8 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   bool tried = false;
   for (; h > shortest; tried = true, ++counts.rejected) {
     if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return 0.0;
-    if (!equations_.solve(h, counts)) {
+    if (!equations_.solve(h, counts, bounds.easily)) {
+      if (bounds.easily) return 0.0;
       h *= kRetry;
       continue;
     }

@@ -15,6 +15,7 @@ struct StepBounds {
   double longest;
   double shortest = 0.0;
   long evaluations = std::numeric_limits<long>::max();  ///< of the forces, after which no further length is tried
+  bool easily = false;  ///< given up at the first length whose equations are not solved in a few iterations
 };
 
 class ImplicitStep {

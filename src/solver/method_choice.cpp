@@ -40,9 +40,9 @@ constexpr std::array<Kind, 9> kKind = {{{1.0, 0.165, 5.5, 0},
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
 constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 
-/// What a trial asks for, as a multiple of a usual implicit step: the first, and later ones; and what the series have
-/// to go for, at least, on the way to the next kink for the first one in the tanh layer to be no dearer than those.
-constexpr double kFirstTrial = 1.65, kLaterTrial = 0.8, kLongWay = 200.0;
+/// What a trial asks for, as a multiple of a usual implicit step: any, and the first one in the tanh layer, unless the
+/// series have to go for so much on the way to the next kink.
+constexpr double kTrial = 0.8, kFirstTrialInLayer = 1.65, kLongWay = 200.0;
 
 /// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
 /// until their pace is known.
@@ -52,8 +52,8 @@ constexpr int kTrialAfter = 32, kTrialAfterRing = 6, kPaceKnown = 6;
 constexpr int kMostLosses = 2;
 
 /// Evaluations of the forces after which an implicit step is given up: any, and a trial; in between, what there is
-/// credit for.
-constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 50;
+/// credit for. The first trial outside the layer, which comes early, is given up sooner.
+constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 50, kMostEasyTrialEvaluations = 30;
 
 /// Shortest trial, as a multiple of what the series go for a cost of 1.
 constexpr double kShortestTrial = 2.0;
@@ -61,7 +61,7 @@ constexpr double kShortestTrial = 2.0;
 /// The same for a step that passes over a ring, where something sticks at the start and where nothing does. It is tried
 /// where the normal forces change by this share at most in a series step, and where the way to the next kink is worth
 /// it: so many series steps; fewer where next to nothing rings.
-constexpr double kShortestPassing = 24.0, kMostRing = 2e-2, kPassingWay = 500.0, kNoRing = 1e-9;
+constexpr double kShortestPassing = 8.0, kMostRing = 2e-2, kPassingWay = 120.0, kNoRing = 1e-9;
 constexpr long kMostPassingEvaluations = 100, kMostPassingSlidingEvaluations = 30;
 
 /// Implicit steps before the series are first asked how far they would go, and most from one such question to the next
@@ -116,23 +116,26 @@ void MethodChoice::look_at(const ContactStates& contacts) {
   if (implicit_ && pace() == 0.0) leave_to_series(kPaceKnown);
 }
 
-bool MethodChoice::starts_passing_over(double step, double longest, double change) {
-  const bool worth = change <= kMostRing && longest > (change <= kNoRing ? kShortestPassing : kPassingWay) * step;
-  if (!worth || step == 0.0) return false;
+bool MethodChoice::passing_over_pays(double step, double longest, double change) const {
+  // the tanh layer answers as fast as the base does, and N says nothing of that
+  const double most = kind_ < kInLayer ? kMostRing : kNoRing;
+  return step > 0.0 && change <= most && longest > (change <= kNoRing ? kShortestPassing : kPassingWay) * step;
+}
+
+void MethodChoice::start_passing_over(double step) {
   paces_[kind_] = {step / kKind[kind_].series, kPaceKnown};
   implicit_ = true;
   attempt_ = Attempt::passes_over;
-  return true;
 }
 
 bool MethodChoice::starts_trial(double longest) {
   if (implicit_ || series_steps_ < patience_) return false;
-  const bool soon = tried_ || (kind_ >= kInLayer && longest > kLongWay * pace());
-  const double needed = (soon ? kLaterTrial : kFirstTrial) * kKind[kind_].usual_implicit();
+  const bool soon = tried_ || kind_ < kInLayer || longest > kLongWay * pace();
+  const double needed = (soon ? kTrial : kFirstTrialInLayer) * kKind[kind_].usual_implicit();
   // where events coincide the series go nowhere, and say nothing
   if (credit_ < needed || pace() == 0.0) return false;
+  attempt_ = tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
-  attempt_ = Attempt::trial;
   return true;
 }
 
@@ -141,10 +144,11 @@ double MethodChoice::trial_length() const { return 2.0 * kKind[kind_].usual_impl
 
 StepBounds MethodChoice::bounds(double longest) const {
   switch (attempt_) {
+    case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};
     case Attempt::trial: return {longest, kShortestTrial * pace(), kMostTrialEvaluations};
     case Attempt::passes_over:
       return {longest, kShortestPassing * pace(),
-              sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations};
+              sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations, !sticks(kind_)};
     case Attempt::ordinary: break;
   }
   const auto paid = static_cast<long>(credit_ / kKind[kind_].evaluation);

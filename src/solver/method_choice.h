@@ -33,9 +33,12 @@ class MethodChoice {
   /// ring of its base.
   bool may_pass_over() const { return may_pass_over_; }
 
-  /// Decides that, where the series would go `step` of at most `longest` and the normal forces would change by the
-  /// share `change`. True when it is worth trying: an implicit step is due then.
-  bool starts_passing_over(double step, double longest, double change);
+  /// True when that is worth trying, where the series would go `step` of at most `longest` without an event and the
+  /// normal forces would change by the share `change`.
+  bool passing_over_pays(double step, double longest, double change) const;
+
+  /// An implicit step is due that passes over the ring.
+  void start_passing_over(double step);
 
   /// True when an implicit step is to be tried now, where it may be `longest`: it is due then, and begins with the
   /// length `trial_length`.
@@ -77,7 +80,7 @@ class MethodChoice {
   static constexpr std::size_t kKinds = 9;  ///< of contacts, by what a step costs (method_choice.cpp)
 
   /// What the implicit step that is due is for.
-  enum class Attempt { ordinary, trial, passes_over };
+  enum class Attempt { ordinary, easy_trial, trial, passes_over };
 
   double pace() const;
   void leave_to_series(int steps);

@@ -7,7 +7,8 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr int kMostIterations = 10;
+/// Newton's iterations, at most: where a step is to be solved easily, and otherwise.
+constexpr int kEasyIterations = 6, kMostIterations = 10;
 
 /// Iterations in which corrections may grow.
 constexpr int kTrials = 3;
@@ -184,30 +185,31 @@ Stages StageEquations::coupled_correction(const Stages& residual) const {
   return correction;
 }
 
-bool StageEquations::solve(double h, SolverCounts& counts) {
+bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   const Collocation& table = collocation();
   for (std::size_t i = 0; i < kStages; ++i) drive_[i] = drive_at(*drives_, table.node[i] * h);
   modes_.set(h, start_jacobian_);
   layer_.set(modes_, h, start_jacobian_, start_forces_);
   set_rounding(h);
+  if (easily) return iterate(h, false, kEasyIterations, counts);
   if (coupled_steps_ == 0) {
-    if (iterate(h, false, counts)) return true;
+    if (iterate(h, false, kMostIterations, counts)) return true;
     // in the tanh layer the step is rather too long than the normal turns too far
     if (start_jacobian_.layer_count > 0 && ++failures_ == 1) return false;
   }
-  if (!iterate(h, true, counts)) return false;
+  if (!iterate(h, true, kMostIterations, counts)) return false;
   if (coupled_steps_ == 0) coupled_steps_ = kCoupledSteps;
   return true;
 }
 
 /// Newton's iteration from a guess: with the modes, or with the Jacobians of every stage, taken anew when that is slow.
 /// False when it does not converge.
-bool StageEquations::iterate(double h, bool coupled, SolverCounts& counts) {
+bool StageEquations::iterate(double h, bool coupled, int most_iterations, SolverCounts& counts) {
   guess(h);
   place_stages(h);
   double before = std::numeric_limits<double>::infinity();
   bool renew = coupled;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Stages residual;
     double left = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < kStages; ++i) {

@@ -22,8 +22,8 @@ class StageEquations {
   void begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
              SolverCounts& counts);
 
-  /// Solves a step of length h; false when that does not converge.
-  bool solve(double h, SolverCounts& counts);
+  /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations with the modes.
+  bool solve(double h, SolverCounts& counts, bool easily = false);
 
   /// Factorizations of the whole matrix of Newton's method until now: each takes as long as some 100 evaluations of
   /// the forces.
@@ -49,7 +49,7 @@ class StageEquations {
 
  private:
   void evaluate(const State& state, const Load3& drive, Forces& forces, SolverCounts& counts) const;
-  bool iterate(double h, bool coupled, SolverCounts& counts);
+  bool iterate(double h, bool coupled, int most_iterations, SolverCounts& counts);
   void guess(double h);
   void keep_guess(double h);
   void linearise_stages(double h);

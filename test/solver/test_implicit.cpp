@@ -10,7 +10,9 @@
 #include "../support/restitution.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "model/scene_loader.h"
 #include "solver/event_solver.h"
+#include "solver/implicit_step.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -133,6 +135,93 @@ TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
   const State a = run_with(bouncing, "event", 1e-8).final_state, b = run_with(bouncing, "auto", 1e-8).final_state;
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.omega, b.omega);
+}
+
+// A part wedged at rest is aligned from the start: the first series step tells, and nothing else is asked.
+TEST(Implicit, automatic_choice_asks_no_implicit_step_where_the_trial_ends_at_once) {
+  for (const char* name : {"wedging", "jamming"}) {
+    Scene scene = test::hard_scene(name);
+    scene.trial.inserted_depth.reset();
+    scene.solver.name = "event";
+    const TrialResult series = test::run(scene);
+    scene.solver.name = "auto";
+    const TrialResult automatic = test::run(scene);
+    EXPECT_EQ(series.outcome, Outcome::aligned) << name;
+    EXPECT_EQ(automatic.counts.steps, 1) << name;
+    EXPECT_EQ(automatic.counts.rhs_evaluations, series.counts.rhs_evaluations) << name;
+  }
+}
+
+// Of a part that turns fast in its contact the first length is not solved in a few iterations.
+TEST(Implicit, a_step_that_is_to_be_easy_is_given_up_at_the_first_trouble) {
+  Scene scene = test::scene_of(test::plain, {"friction=null"});
+  scene.initial.y.reset();
+  scene.gripper.pressing_force = 3.0;
+  scene.initial.phi = 0.6;
+  const System system = make_system(scene);
+  DriveForms drives;
+  drives.count = 0;
+  ContactStates contacts{};
+  contacts[0] = {Phase::loaded, Face::bottom};
+  const auto evaluations = [&](bool easily) {
+    ImplicitStep step(system, 1e-10);
+    Segment segment;
+    segment.contacts = contacts;
+    SolverCounts counts;
+    const double length = step.take(system.start, drives, {10.0, 0.0, 1000, easily}, segment, counts);
+    EXPECT_EQ(length == 0.0, easily);
+    return counts.rhs_evaluations;
+  };
+  EXPECT_LE(evaluations(true), 1 + 6 * 7);  // the start, and six iterations at seven nodes
+  EXPECT_GT(evaluations(false), 1 + 6 * 7);
+}
+
+// Friction is decided by the series. Where the polynomials of an implicit step say the contrary at its start (N and V
+// begin with a zero of second order, or a creep ends that the step passes over), the same events would follow each
+// other for ever. The final states are those of `event` up to what small errors make of the slips before.
+TEST(Implicit, steps_that_contradict_what_friction_has_decided_are_left_to_the_series) {
+  const char* const scenes[] = {// touches without depth or speed, on a base without damping
+                                R"(part: {half_width: 1.9, base_distance: 0.9, inertia: 0.4}
+slot: {clearance: 0.01}
+gripper: {stiffness: {x: 0.7, phi: 0.02}, anchor: {y: 0.3, phi: 0}}
+base: {stiffness: {y: 5000}}
+contacts: [edges]
+friction: {coefficient: 0.3}
+excitation: {amplitude: 1, frequency: 2.6}
+initial: {x: 0.5, y: 0.9, phi: 0}
+trial: {time_limit: 3})",
+                                // slides and stops within a step that passes over the ring
+                                R"(part: {half_width: 0.21107143375190934, base_distance: 1.5351490899179907}
+slot: {clearance: 0.032905560760169233}
+gripper: {damping: {x: 0.07, y: 0.09, phi: 0.0001}, anchor: {x: -0.18, phi: 0.0243}, pressing_force: 0.27}
+base: {stiffness: {x: 250000, y: 44000}, damping: {x: 960, y: 60}}
+contacts: [edges]
+friction: {coefficient: 0.15}
+excitation: {amplitude: -0.54, frequency: 1.67}
+initial: {x: -0.1634, phi: 0.0243}
+trial: {time_limit: 0.36})",
+                                // creeps to rest between top and wall, one corner sticking
+                                R"(part: {half_width: 0.548, base_distance: 0.383, inertia: 0.484}
+slot: {clearance: 0.103, depth: 0.72}
+gripper: {stiffness: {x: 0.4446, phi: 2.705}, damping: {x: 0.0913, phi: 0.737}, anchor: {x: 0, phi: 0}, pressing_force: 0.2012}
+base: {stiffness: {x: 71000, y: 73140}, damping: {x: 90.4, y: 1685}}
+contacts: [corners, walls]
+friction: {coefficient: 0.7253}
+excitation: {amplitude: -0.0996, frequency: 1}
+initial: {x: 0.1}
+trial: {time_limit: 3.845})"};
+  for (const char* text : scenes) {
+    const Scene scene =
+        load_scene(YAML::Load(std::string("name: contradiction\nunits: dimensionless\n") + text), "test");
+    const State expected = run_with(scene, "event", 1e-8).final_state;
+    for (const char* solver : {"implicit", "auto"})
+      for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+        const TrialResult result = run_with(scene, solver, tolerance);
+        EXPECT_EQ(result.failure, "") << solver << " " << tolerance;
+        EXPECT_NEAR(result.final_state.x, expected.x, 1e-3) << solver << " " << tolerance;
+        EXPECT_NEAR(result.final_state.y, expected.y, 1e-3) << solver << " " << tolerance;
+      }
+  }
 }
 
 // Rounding may leave nothing, or a last digit, of the way to a kink.

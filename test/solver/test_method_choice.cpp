@@ -20,8 +20,9 @@ constexpr StepEffort kEffort{36, 0};
 constexpr double kUsual = 0.6 + 36 * 0.165;
 constexpr double kUsualStuck = 0.6 + 36 * 0.23;  ///< of one that sticks
 
-/// What a series step adds to the credit for each 1 of its cost; the credit for the first trial and for later ones.
-constexpr double kShare = 0.12, kFirst = 1.65, kLater = 0.8;
+/// What a series step adds to the credit for each 1 of its cost; the credit for a trial, and for the first one in the
+/// tanh layer.
+constexpr double kShare = 0.12, kTrial = 0.8, kFirstInLayer = 1.65;
 
 ContactStates contacts_that(std::initializer_list<Slip> slips) {
   ContactStates contacts{};
@@ -57,12 +58,12 @@ void expect_first_from(double number, int steps) { EXPECT_NEAR(steps, number + 0
 /// A choice whose first trial has just paid 50, and its credit.
 MethodChoice rich() {
   MethodChoice choice;
-  expect_first_from(kFirst * kUsual / kShare, steps_until_trial(choice));  // 90
+  expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));  // 44
   choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   EXPECT_TRUE(choice.implicit());
   return choice;
 }
-constexpr double kRich = 90 * kShare + 50.0;
+constexpr double kRich = 44 * kShare + 50.0;
 
 /// Implicit steps until they are given up, each of which goes as far as a series step of this pace and so loses kLoss.
 constexpr double kLoss = kUsual - 1.0;
@@ -92,7 +93,7 @@ double cost_of(const ContactStates& contacts, double series_cost, const StepEffo
 
 TEST(MethodChoice, the_first_trial_has_to_be_earned) {
   MethodChoice choice;
-  expect_first_from(kFirst * kUsual / kShare, steps_until_trial(choice));
+  expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));
 }
 
 // A series step costs 1.2; 200 of that cost go 166.7.
@@ -100,8 +101,8 @@ TEST(MethodChoice, the_first_trial_in_the_tanh_layer_has_to_be_earned_twice_wher
   const ContactStates layer = contacts_that({Slip::regularized});
   MethodChoice near, far;
   const double usual = 0.6 + 36 * 0.33, earned = 1.2 * kShare;
-  expect_first_from(kFirst * usual / earned, steps_until_trial(near, layer, 166.0));
-  expect_first_from(kLater * usual / earned, steps_until_trial(far, layer, 167.0));
+  expect_first_from(kFirstInLayer * usual / earned, steps_until_trial(near, layer, 166.0));
+  expect_first_from(kTrial * usual / earned, steps_until_trial(far, layer, 167.0));
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
@@ -111,7 +112,7 @@ TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   EXPECT_FALSE(choice.implicit());
   const double debt = 0.6 + 41 * 0.165 + 5.5 - earned * kShare;
   EXPECT_GT(debt, 0.0);
-  expect_first_from((kLater * kUsual + debt) / kShare, steps_until_trial(choice));
+  expect_first_from((kTrial * kUsual + debt) / kShare, steps_until_trial(choice));
 }
 
 TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
@@ -139,11 +140,20 @@ TEST(MethodChoice, a_trial_has_twice_the_length_that_would_pay) {
 }
 
 TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
-  MethodChoice choice;
+  MethodChoice choice, in_layer;
+  const auto expect_trial = [](const MethodChoice& tried, double shortest, long evaluations, bool easily) {
+    EXPECT_EQ(tried.bounds(kFar).longest, kFar);
+    EXPECT_DOUBLE_EQ(tried.bounds(kFar).shortest, shortest);
+    EXPECT_EQ(tried.bounds(kFar).evaluations, evaluations);
+    EXPECT_EQ(tried.bounds(kFar).easily, easily);
+  };
   ASSERT_LT(steps_until_trial(choice), 100);
-  EXPECT_EQ(choice.bounds(kFar).longest, kFar);
-  EXPECT_DOUBLE_EQ(choice.bounds(kFar).shortest, 2.0);
-  EXPECT_EQ(choice.bounds(kFar).evaluations, 50);
+  expect_trial(choice, 2.0, 30, true);
+  choice.settle_implicit(0.0, kFar, kEffort);
+  ASSERT_LT(steps_until_trial(choice), 100);
+  expect_trial(choice, 2.0, 50, false);
+  ASSERT_LT(steps_until_trial(in_layer, contacts_that({Slip::regularized})), 200);
+  expect_trial(in_layer, 2.0 / 1.2, 50, false);
   choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   ASSERT_TRUE(choice.implicit());
   EXPECT_EQ(choice.bounds(kFar).longest, kFar);
@@ -327,27 +337,40 @@ TEST(MethodChoice, a_ring_is_passed_over_at_the_start_alone) {
   EXPECT_FALSE(begun.may_pass_over());
 }
 
-TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
+/// A choice that is about to pass over a ring, where the series go 1.
+MethodChoice passing() {
   MethodChoice choice = fresh();
-  ASSERT_TRUE(choice.starts_passing_over(1.0, 501.0, 1e-3));
+  choice.start_passing_over(1.0);
+  return choice;
+}
+
+TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
+  MethodChoice choice = passing();
   choice.settle_implicit(400.0, 501.0, kEffort);
   EXPECT_TRUE(choice.implicit());
   EXPECT_FALSE(choice.may_pass_over());
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_where_it_is_small_and_the_way_is_long) {
-  EXPECT_TRUE(fresh().starts_passing_over(1.0, 501.0, 1.9e-2));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 501.0, 2.1e-2));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 499.0, 1.9e-2));
-  EXPECT_TRUE(fresh().starts_passing_over(1.0, 25.0, 1e-10));
-  EXPECT_FALSE(fresh().starts_passing_over(1.0, 23.0, 1e-10));
-  EXPECT_FALSE(fresh().starts_passing_over(0.0, kFar, 1e-10));
+  EXPECT_TRUE(fresh().passing_over_pays(1.0, 121.0, 1.9e-2));
+  EXPECT_FALSE(fresh().passing_over_pays(1.0, 121.0, 2.1e-2));
+  EXPECT_FALSE(fresh().passing_over_pays(1.0, 119.0, 1.9e-2));
+  EXPECT_TRUE(fresh().passing_over_pays(1.0, 9.0, 1e-10));
+  EXPECT_FALSE(fresh().passing_over_pays(1.0, 7.0, 1e-10));
+  EXPECT_FALSE(fresh().passing_over_pays(0.0, kFar, 1e-10));
+}
+
+TEST(MethodChoice, in_the_tanh_layer_only_what_hardly_rings_is_passed_over) {
+  for (const Slip other : {Slip::regularized, Slip::stick, Slip::plus}) {
+    MethodChoice choice;
+    choice.look_at(contacts_that({Slip::regularized, other}));
+    EXPECT_FALSE(choice.passing_over_pays(1.0, kFar, 2e-9));
+    EXPECT_TRUE(choice.passing_over_pays(1.0, kFar, 1e-10));
+  }
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_by_a_long_step_or_soon_given_up) {
-  MethodChoice sliding = fresh();
-  ASSERT_TRUE(sliding.starts_passing_over(1.0, 501.0, 1e-3));
-  EXPECT_DOUBLE_EQ(sliding.bounds(501.0).shortest, 24.0);
+  EXPECT_DOUBLE_EQ(passing().bounds(501.0).shortest, 8.0);
   const std::pair<ContactStates, long> most_evaluations[] = {{contacts_that({Slip::plus}), 30},
                                                              {contacts_that({Slip::plus, Slip::minus}), 30},
                                                              {contacts_that({Slip::stick}), 100},
@@ -358,19 +381,25 @@ TEST(MethodChoice, a_ring_is_passed_over_by_a_long_step_or_soon_given_up) {
   for (const auto& [contacts, evaluations] : most_evaluations) {
     MethodChoice choice;
     choice.look_at(contacts);
-    ASSERT_TRUE(choice.starts_passing_over(6.0, 3001.0, 1e-3));
+    choice.start_passing_over(6.0);
     EXPECT_TRUE(choice.implicit());
     EXPECT_EQ(choice.bounds(3001.0).longest, 3001.0);
     EXPECT_EQ(choice.bounds(3001.0).evaluations, evaluations);
+    EXPECT_EQ(choice.bounds(3001.0).easily, evaluations == 30);
   }
 }
 
+TEST(MethodChoice, other_implicit_steps_take_the_trouble) {
+  MethodChoice choice = passing();
+  choice.settle_implicit(400.0, 501.0, kEffort);
+  EXPECT_FALSE(choice.bounds(501.0).easily);
+}
+
 TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
-  MethodChoice choice = fresh();
-  ASSERT_TRUE(choice.starts_passing_over(1.0, 501.0, 1e-3));
+  MethodChoice choice = passing();
   choice.settle_implicit(0.0, kFar, {1000, 1000});
   EXPECT_FALSE(choice.implicit());
-  expect_first_from(kFirst * kUsual / kShare, steps_until_trial(choice));
+  expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));
 }
 
 }  // namespace
