@@ -236,6 +236,7 @@ void EventSolver::go_to_end() {
   // events may coincide, but not for ever
   const bool progress = end.high != now_.high || end.low != now_.low;
   events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
+  by_implicit_step_ = implicit_now_ || (by_implicit_step_ && !progress);
   now_ = end;
   if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
   state_ = segment_.end;
@@ -384,8 +385,8 @@ bool EventSolver::shorten_implicit_step(double step) {
   return taken;
 }
 
-/// True when events have followed each other at the present time, one undoing the other.
-bool EventSolver::contradicted() const { return events_without_progress_ >= kContradiction; }
+/// True when events have followed each other at the present time, one undoing the other, and implicit steps led there.
+bool EventSolver::contradicted() const { return by_implicit_step_ && events_without_progress_ >= kContradiction; }
 
 /// The end of an implicit step that was cut short at V = 0 has another V, by the error of the step: what slides as that
 /// says does so. Where V says the contrary of what friction has decided, and that goes on, V' is such an error as well.

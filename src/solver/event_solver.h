@@ -81,6 +81,7 @@ class EventSolver final : public Solver {
   Flight flight_;
 
   int events_without_progress_ = 0;
+  bool by_implicit_step_ = false;  ///< the state, or an event at the present time, is of an implicit step
   bool holds_here_ = false;  ///< friction has just been decided anew for contacts that could not stick for a whole step
   SolverCounts counts_;
 };
