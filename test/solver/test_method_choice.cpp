@@ -91,9 +91,11 @@ double cost_of(const ContactStates& contacts, double series_cost, const StepEffo
   return high * series_cost;
 }
 
-TEST(MethodChoice, the_first_trial_has_to_be_earned) {
-  MethodChoice choice;
-  expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));
+TEST(MethodChoice, the_first_trial_has_to_be_earned_however_short_the_way) {
+  for (const double longest : {10.0, kFar}) {
+    MethodChoice choice;
+    expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice, kSliding, longest));
+  }
 }
 
 // A series step costs 1.2; 200 of that cost go 166.7.
