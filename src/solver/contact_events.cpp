@@ -212,7 +212,10 @@ class Search {
       if (time != kNoRoot && (before == kNoRoot || time < before)) before = time;
     const int zeros = zeros_of(contact.normal_force, pins_[static_cast<std::size_t>(site)].normal);
     offer(fall_before(before, contact.normal_force, order_, zeros), EventKind::release, site);
-    guard_limits(site, segment_.contacts[static_cast<std::size_t>(site)].face);
+    const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
+    // a foot that sticks stays where it is, at the very end of the face too, where the rounding or the error of a step
+    // would carry it beyond
+    if (state.slip != Slip::stick) guard_limits(site, state.face);
     for (const double time : slips.time) offer(time, slips.kind, site);
   }
 

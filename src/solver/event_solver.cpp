@@ -58,6 +58,9 @@ constexpr int kMaxEventsWithoutProgress = 100;
 /// From so many on the polynomials of an implicit step contradict what the series have decided: these go on.
 constexpr int kContradiction = 4;
 
+/// Implicit steps to events no later than this, relative to the time, are no progress.
+constexpr double kHardly = 1e-15;
+
 /// A base deformation that is nothing (relative to lengths of order one).
 constexpr double kNoDeformation = 1e-18;
 
@@ -234,7 +237,8 @@ double EventSolver::first_crossing(const FoundEvents& found) const {
 void EventSolver::go_to_end() {
   const Instant end = segment_.start + segment_.duration;
   // events may coincide, but not for ever
-  const bool progress = end.high != now_.high || end.low != now_.low;
+  const bool hardly = implicit_now_ && segment_.duration <= kHardly * end.high;
+  const bool progress = (end.high != now_.high || end.low != now_.low) && !hardly;
   events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
   by_implicit_step_ = implicit_now_ || (by_implicit_step_ && !progress);
   now_ = end;
@@ -575,8 +579,9 @@ void EventSolver::set_anchor_y(double anchor_y) {
 /// A jump of the forces may end sticking, and ends the closed form of a flight.
 void EventSolver::forces_jump() {
   in_flight_ = false;
-  implicit_.forget();
   if (!started_) return;
+  implicit_.restart(true);
+  choice_.ring();
   const Instant end = segment_.start + segment_.duration;
   if (!mode_changes_) {
     next_mode_ = mode_;

@@ -26,6 +26,9 @@ constexpr double kSafety = 0.8, kLeastGrowth = 0.1, kMostGrowth = 5.0;
 /// Errors smaller than this share of the one allowed say nothing about their trend.
 constexpr double kNegligible = 1e-2;
 
+/// Amplitude of what a trial's first step may pass over, as a multiple of its tolerance, in lengths of the part.
+constexpr double kPassedOver = 100.0;
+
 double longest_drive_step(const DriveForms& drives) {
   double fastest = 0.0;
   for (int i = 0; i < drives.count; ++i)
@@ -47,7 +50,9 @@ double base_time(const System& system) {
 }  // namespace
 
 ImplicitStep::ImplicitStep(const System& system, double tolerance)
-    : equations_(system, tolerance), base_time_(base_time(system)) {}
+    : equations_(system, tolerance),
+      base_time_(base_time(system)),
+      most_passed_over_(kPassedOver * tolerance * (system.half_width + system.base_distance)) {}
 
 void ImplicitStep::restart(bool base_rings) {
   restarts_ = !base_rings;
@@ -58,15 +63,28 @@ void ImplicitStep::restart(bool base_rings) {
     next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
 }
 
-/// Error of the velocities: what the polynomial of the accelerations misses at the start, without its stiff part. What
-/// is stiff is damped by the method and, below the tolerance in position, is not to be followed: it is filtered twice.
-double ImplicitStep::error(double h) const {
+/// What the polynomial of the accelerations misses at the start.
+StageAxes ImplicitStep::missed_at_start() const {
   const Collocation& table = collocation();
   const Forces& forces = equations_.start_forces();
   StageAxes missed = {forces.ax, forces.ay, forces.alpha};
   for (std::size_t j = 0; j < kStages; ++j)
     for (std::size_t axis = 0; axis < 3; ++axis) missed[axis] -= table.at_start[j] * equations_.acceleration()[j][axis];
-  return h * table.eigenvalue[0].real() * equations_.size_of(equations_.filter(equations_.filter(missed)));
+  return missed;
+}
+
+/// Error of the velocities: what the polynomial of the accelerations misses at the start, without its stiff part. What
+/// is stiff is damped by the method and, below the tolerance in position, is not to be followed: it is filtered twice.
+double ImplicitStep::error(double h) const {
+  return h * collocation().eigenvalue[0].real() *
+         equations_.size_of(equations_.filter(equations_.filter(missed_at_start())));
+}
+
+/// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
+/// the missed accelerations is that amplitude, times the square of its rate, which the filter divides by.
+bool ImplicitStep::passes_over_too_much(double h) const {
+  const double length = h * collocation().eigenvalue[0].real();
+  return length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_;
 }
 
 double ImplicitStep::take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
@@ -81,7 +99,7 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
   const bool passes_over = next_step_ == 0.0 && bounds.shortest > 0.0;
   double last_error = std::numeric_limits<double>::infinity();
-  bool tried = false;
+  bool tried = false, very_first = next_step_ == 0.0;
   for (; h > shortest; tried = true, ++counts.rejected) {
     if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return 0.0;
     if (!equations_.solve(h, counts, bounds.easily)) {
@@ -95,6 +113,11 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
       if (passes_over && ratio > last_error) return 0.0;
       last_error = ratio;
       h *= std::min(0.9, factor);
+      continue;
+    }
+    if (very_first && h > base_time_ && passes_over_too_much(h)) {
+      very_first = false;
+      h = base_time_;
       continue;
     }
     // a step that was cut short says nothing about longer ones; after a shorter one nothing speaks for a longer one

@@ -53,12 +53,14 @@ class ImplicitStep {
  private:
   static constexpr int kStages = Collocation::kStages;
 
+  StageAxes missed_at_start() const;
   double error(double h) const;
+  bool passes_over_too_much(double h) const;
   double growth(double h, double ratio) const;
   void fill(double h, Segment& segment) const;
 
   StageEquations equations_;
-  double base_time_;
+  double base_time_, most_passed_over_;
   double next_step_ = 0.0;                       ///< length that the last step suggests
   double restart_step_ = 0.0;                    ///< length of the first step after the last jump
   double last_length_ = 0.0, last_ratio_ = 1.0;  ///< of the last step, and its error over the one allowed
