@@ -58,6 +58,14 @@ constexpr int kMaxEventsWithoutProgress = 100;
 /// From so many on the polynomials of an implicit step contradict what the series have decided: these go on.
 constexpr int kContradiction = 4;
 
+/// An event may lie this much later than an implicit step that was taken again to end there, as a share of it, and
+/// earlier without one more; how often it is taken again.
+constexpr double kMostShift = 1e-3;
+constexpr int kMostRetakes = 8;
+
+/// Lengths that are tried, each half of the one before, where a shorter step does not converge.
+constexpr int kMostShorter = 6;
+
 /// Implicit steps to events no later than this, relative to the time, are no progress.
 constexpr double kHardly = 1e-15;
 
@@ -381,12 +389,31 @@ double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveF
   return step;
 }
 
-/// Takes the implicit step again with the length `step`. False when that does not converge: the polynomials of the
-/// longer one stay, whose state there only they know.
-bool EventSolver::shorten_implicit_step(double step) {
-  const bool taken = implicit_.retake(step, segment_, counts_);
-  implicit_length_ = taken ? step : kInfinity;
-  return taken;
+/// Takes the implicit step again with the length `step`, or where that does not converge with half of it, and so on.
+/// Returns its length; 0 when none converges: the polynomials of the longer one stay, whose state there only they know.
+double EventSolver::shorten_implicit_step(double step) {
+  for (int i = 0; i < kMostShorter; ++i, step *= 0.5) {
+    if (!implicit_.retake(step, segment_, counts_)) continue;
+    series_.adopt(segment_);
+    return implicit_length_ = step;
+  }
+  implicit_length_ = kInfinity;
+  return 0.0;
+}
+
+/// Takes the implicit step again to the events found in it, until they are where the shorter step, which is the more
+/// exact one, has them. None are left where only a step that ends before them converges.
+void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found) {
+  for (int i = 0; i < kMostRetakes && found.time > kHardly * now_.high; ++i) {
+    const double length = shorten_implicit_step(found.time);
+    if (length == 0.0) return;
+    FoundEvents nearer;
+    segment_.duration = (1.0 + kMostShift) * length;
+    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, nearer);
+    if (nearer.count == 0 && length == found.time) return;
+    found = nearer;
+    if (found.count == 0 || found.time >= (1.0 - kMostShift) * length) return;
+  }
 }
 
 /// True when events have followed each other at the present time, one undoing the other, and implicit steps led there.
@@ -482,7 +509,10 @@ const Segment& EventSolver::advance(double limit) {
     // the series of the points turn with the part; those of the other edge and the corners follow from these
     segment_.coarse = implicit_now_;
     step = std::min({step, end, direction_step(step, point_tolerance)});
-    if (implicit_now_ && step < implicit_length_ && shorten_implicit_step(step)) series_.adopt(segment_);
+    if (implicit_now_ && step < implicit_length_) {
+      const double shorter = shorten_implicit_step(step);
+      if (shorter > 0.0) step = shorter;
+    }
     if (!contact && system_.contacts.edges)
       for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
         step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
@@ -508,8 +538,8 @@ const Segment& EventSolver::advance(double limit) {
     }
     if (found.count > 0) {
       if (corrects && found.time > 0.0) found.time = first_crossing(found);
-      segment_.duration = found.time;
-      if (implicit_now_ && found.time > 0.0) shorten_implicit_step(found.time);
+      if (implicit_now_) retake_to_events(drives, found);
+      segment_.duration = found.count > 0 ? found.time : implicit_length_;
     }
   }
   if (contact && method_ == ContactMethod::automatic && end > 0.0 && !contradicted()) settle(segment_.duration, end);

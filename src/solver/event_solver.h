@@ -36,7 +36,8 @@ class EventSolver final : public Solver {
   double chosen_contact_step(double longest, const DriveForms& drives);
   bool has_event(double step, const DriveForms& drives);
   double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
-  bool shorten_implicit_step(double step);
+  double shorten_implicit_step(double step);
+  void retake_to_events(const DriveForms& drives, FoundEvents& found);
   bool contradicted() const;
   void believe_state();
   StepEffort effort() const;

@@ -75,9 +75,16 @@ StageAxes ImplicitStep::missed_at_start() const {
 
 /// Error of the velocities: what the polynomial of the accelerations misses at the start, without its stiff part. What
 /// is stiff is damped by the method and, below the tolerance in position, is not to be followed: it is filtered twice.
+/// A contact in the tanh layer that is about to be released is stiff at the start and no longer at the end.
 double ImplicitStep::error(double h) const {
-  return h * collocation().eigenvalue[0].real() *
-         equations_.size_of(equations_.filter(equations_.filter(missed_at_start())));
+  const StageAxes missed = missed_at_start();
+  double size = equations_.size_of(equations_.filter(equations_.filter(missed)));
+  if (equations_.in_layer()) {
+    const Eigen::Matrix3d filter = equations_.filter_at_end(h);
+    const Eigen::Vector3d left = filter * (filter * Eigen::Vector3d(missed[0], missed[1], missed[2]));
+    size = std::max(size, equations_.size_of({left[0], left[1], left[2]}));
+  }
+  return h * collocation().eigenvalue[0].real() * size;
 }
 
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
@@ -146,6 +153,7 @@ double ImplicitStep::growth(double h, double ratio) const {
 
 bool ImplicitStep::retake(double h, Segment& segment, SolverCounts& counts) {
   if (!equations_.solve(h, counts)) return false;
+  if (equations_.in_layer() && error(h) > equations_.allowed(h)) return false;
   fill(h, segment);
   return true;
 }

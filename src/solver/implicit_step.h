@@ -31,7 +31,8 @@ class ImplicitStep {
               SolverCounts& counts);
 
   /// The last step once more, with the shorter length `h` at whose end an event lies: the state there then fulfils the
-  /// equations of motion, as no point inside a step does on a stiff base. False when it does not converge.
+  /// equations of motion, as no point inside a step does on a stiff base. False when it does not converge, or when
+  /// its error in the tanh layer, of which the longer step has seen less, is too large.
   bool retake(double h, Segment& segment, SolverCounts& counts);
 
   /// Length that the next step is tried with first.

@@ -166,6 +166,12 @@ StageAxes StageEquations::filter(const StageAxes& acceleration) const {
   return filtered;
 }
 
+Eigen::Matrix3d StageEquations::filter_at_end(double h) const {
+  const ForceJacobian there = force_jacobian(system_, end(), *contacts_, forces_[kStages - 1]);
+  const double z = h * collocation().eigenvalue[0].real();
+  return (Eigen::Matrix3d::Identity() - z * there.by_velocity - z * z * there.by_position).inverse();
+}
+
 double StageEquations::size_of(const StageAxes& acceleration) const {
   const double reach = system_.half_width + system_.base_distance;
   return std::abs(acceleration[0]) + std::abs(acceleration[1]) + reach * std::abs(acceleration[2]);

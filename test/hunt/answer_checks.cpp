@@ -24,14 +24,17 @@ double energy_terms(const Scene& scene, const EnergyLedger& e) {
   return std::abs(e.initial) + std::abs(e.final) + e.exchanged + std::abs(scene.weight * scene.part.base_distance);
 }
 
-double difference(const System& s, double fastest, const Landmark& a, const Landmark& b) {
+double difference_of_places(const System& s, const Landmark& a, const Landmark& b) {
   const State &p = a.state, &q = b.state;
   const double size = std::abs(p.x) + std::abs(p.y) + s.half_width + s.base_distance;
-  const double speed = fastest + 1e-3;
   const double place = std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.phi - q.phi) * s.half_width});
+  return std::max(place / size, std::abs(a.time - b.time));
+}
+
+double difference_of_rates(const System& s, double fastest, const State& p, const State& q) {
   const double rate =
       std::max({std::abs(p.vx - q.vx), std::abs(p.vy - q.vy), std::abs(p.omega - q.omega) * s.half_width});
-  return std::max({place / size, rate / speed, std::abs(a.time - b.time)});
+  return rate / (fastest + 1e-3);
 }
 
 }  // namespace
@@ -79,17 +82,25 @@ std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b) {
   return fault(Invariant::output_rate, "change of the final x", b.final_state.x - a.final_state.x);
 }
 
-double difference(const System& system, const Trace& a, const Trace& b) {
+double difference(const System& system, const Trace& a, const Trace& b, Compared compared) {
   const bool refused = a.result.outcome == Outcome::failed || b.result.outcome == Outcome::failed;
   if (!refused && (a.touches.size() != b.touches.size() || a.all_touches != b.all_touches)) return INFINITY;
   const double fastest = std::max(a.fastest, b.fastest);
+  const auto between = [&](const Landmark& p, const Landmark& q) {
+    const double place = difference_of_places(system, p, q);
+    return compared == Compared::places ? place
+                                        : std::max(place, difference_of_rates(system, fastest, p.state, q.state));
+  };
   double largest = 0.0;
   for (std::size_t i = 0; i < std::min(a.touches.size(), b.touches.size()); ++i)
-    largest = std::max(largest, difference(system, fastest, a.touches[i], b.touches[i]));
+    largest = std::max(largest, between(a.touches[i], b.touches[i]));
   if (refused || !a.all_touches) return largest;
   if (a.result.outcome != b.result.outcome) return INFINITY;
-  return std::max(largest, difference(system, fastest, {a.result.final_time, a.result.final_state},
-                                      {b.result.final_time, b.result.final_state}));
+  // a motion that has settled ends with the step in which that is noticed
+  const bool settled = a.result.outcome == Outcome::stalled || a.result.outcome == Outcome::jammed;
+  if (settled && a.result.final_time != b.result.final_time) return largest;
+  return std::max(largest,
+                  between({a.result.final_time, a.result.final_state}, {b.result.final_time, b.result.final_state}));
 }
 
 Trace mirrored(Trace trace) {

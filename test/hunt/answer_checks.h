@@ -26,9 +26,13 @@ std::optional<Fault> check_energy(const Scene& scene, const Trace& trace);
 /// Two answers are the same to the last bit.
 std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b);
 
+/// What is compared at touches and end besides the times. An implicit step leaves a ring of the base that is too small
+/// to see, and whose speed is not.
+enum class Compared { places, places_and_rates };
+
 /// Largest difference of two traces over touches and end, relative to the sizes of the motion and its fastest speed;
 /// infinite where one of them touches or ends otherwise.
-double difference(const System& system, const Trace& a, const Trace& b);
+double difference(const System& system, const Trace& a, const Trace& b, Compared compared);
 
 /// The trace of the mirrored scene as it should look.
 Trace mirrored(Trace trace);

@@ -13,9 +13,10 @@ const char* to_string(Invariant invariant) {
     case Invariant::ledger_closes: return "ledger_closes";
     case Invariant::losses: return "losses";
     case Invariant::mirror: return "mirror";
-    case Invariant::output_rate: break;
+    case Invariant::output_rate: return "output_rate";
+    case Invariant::methods_agree: break;
   }
-  return "output_rate";
+  return "methods_agree";
 }
 
 }  // namespace vibratory_alignment::hunt

@@ -15,9 +15,10 @@ enum class Invariant {
   ledger_closes,    ///< what came in, less what went out, is there
   losses,           ///< energy leaves through dampers and friction, it does not come in through them
   mirror,           ///< the mirrored scene gives the mirrored answer
-  output_rate       ///< how often the motion is looked at changes no bit of it
+  output_rate,      ///< how often the motion is looked at changes no bit of it
+  methods_agree     ///< `implicit` and `auto` give the answer of `event`
 };
-constexpr int kInvariantCount = 10;
+constexpr int kInvariantCount = 11;
 
 const char* to_string(Invariant invariant);
 

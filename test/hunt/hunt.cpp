@@ -7,6 +7,8 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
+constexpr double kImplicitTolerance = 1e-10;
+
 void allow_open_fault(Verdict& verdict) {
   verdict.open = !verdict.faults.empty();
   verdict.faults.clear();
@@ -14,6 +16,14 @@ void allow_open_fault(Verdict& verdict) {
 }
 
 }  // namespace
+
+Scene scene_of(std::uint64_t seed, const HuntOptions& options) {
+  Scene scene = random_scene(seed, options.range);
+  scene.solver.name = options.solver;
+  // below that an implicit step is known to rounding only (docs/hybrid_step.md "Rounding")
+  if (options.solver != "event") scene.solver.tolerance = std::max(scene.solver.tolerance, kImplicitTolerance);
+  return scene;
+}
 
 Hunt::Hunt(const HuntOptions& options, OnFailure on_failure)
     : options_(options), on_failure_(std::move(on_failure)), running_(options.threads) {
@@ -31,7 +41,7 @@ void Hunt::work(Worker& worker) {
     const std::uint64_t seed = options_.from + static_cast<std::uint64_t>(i);
     worker.started = cpu_time_s();
     worker.seed = static_cast<std::int64_t>(seed);
-    Verdict verdict = judge(random_scene(seed, options_.range), options_.range);
+    Verdict verdict = judge(scene_of(seed, options_), options_.range);
     if (std::find(options_.open.begin(), options_.open.end(), seed) != options_.open.end()) allow_open_fault(verdict);
     worker.seed = -1;
     {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -19,8 +20,12 @@ struct HuntOptions {
   std::uint64_t from = 0;  ///< first seed
   long count = 10000;
   int threads = 1;
+  std::string solver = "event";
   std::vector<std::uint64_t> open;  ///< seeds with a fault that is known; a failure only once it is mended
 };
+
+/// The random scene of a seed, for the solver asked.
+Scene scene_of(std::uint64_t seed, const HuntOptions& options);
 
 /// Runs in the background from its construction on.
 class Hunt {

@@ -68,7 +68,7 @@ class FailureReport {
     std::ostringstream text;
     text << "\nFAILED: seed " << seed << " (" << range << ")\n" << faults_text(verdict);
     if (count_++ < options_.shrunk) {
-      const std::string scene = shrunk_text(random_scene(seed, options_.hunt.range), options_.hunt.range, verdict);
+      const std::string scene = shrunk_text(scene_of(seed, options_.hunt), options_.hunt.range, verdict);
       text << "--- shrunk\n" << scene;
       if (!options_.keep.empty()) {
         const std::string path = options_.keep + "/" + range + "_" + std::to_string(seed) + "_" + invariant + ".yaml";
@@ -91,7 +91,7 @@ int judge_file(const std::string& path, Range range) {
   std::cout << faults_text(verdict) << (verdict.faults.empty() ? "every invariant held" : "FAILED")
             << (verdict.has_start ? "" : " (no start: nothing ran)")
             << (verdict.refusal.empty() ? "" : " (the solver gave up: " + verdict.refusal + ")")
-            << (verdict.sensitive ? " (too sensitive to compare mirrored)" : "") << "\n";
+            << (verdict.sensitive ? " (too sensitive to compare)" : "") << "\n";
   return verdict.faults.empty() ? 0 : 1;
 }
 
@@ -134,6 +134,9 @@ int main(int argc, char** argv) {
       ->transform(
           CLI::CheckedTransformer(std::map<std::string, Range>{{"ordinary", Range::ordinary}, {"wild", Range::wild}}))
       ->type_name("ordinary|wild");
+  app.add_option("--solver", options.hunt.solver, "Solver; implicit and auto are compared with event")
+      ->check(CLI::IsMember({"event", "implicit", "auto"}))
+      ->capture_default_str();
   app.add_option("--threads", options.hunt.threads, "Threads")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--keep", options.keep, "Write every shrunk scene that fails to this directory")->type_name("DIR");
   app.add_option("--shrink", options.shrunk, "Shrink this many of the scenes that fail")
@@ -151,7 +154,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (options.show) {
-      std::cout << hunt::scene_text(hunt::random_scene(*options.show, options.hunt.range));
+      std::cout << hunt::scene_text(hunt::scene_of(*options.show, options.hunt));
       return 0;
     }
     return options.scene.empty() ? hunt::run(options) : hunt::judge_file(options.scene, options.hunt.range);

@@ -64,7 +64,11 @@ double mobility(const System& s, const TouchPoint& p) {
 class SegmentCheck {
  public:
   SegmentCheck(const System& system, double tolerance, double fastest, const Segment& segment)
-      : system_(system), tolerance_(tolerance), fastest_(fastest), segment_(segment) {}
+      : system_(system),
+        tolerance_(tolerance),
+        fastest_(fastest),
+        segment_(segment),
+        digits_(kDigits + (segment.coarse ? 1.0 : kCut) * tolerance) {}
 
   std::optional<Fault> at(double t) {
     t_ = t;
@@ -89,8 +93,7 @@ class SegmentCheck {
   /// A depth is known to the digits of its lengths, and to how far the last digit of the time moves the part.
   double depth_noise() const {
     const double time = segment_.start.value() + t_;
-    return (kDigits + kCut * tolerance_) * length_of(system_, state_) +
-           kTimeDigits * time * speed_of(system_, segment_, state_);
+    return digits_ * length_of(system_, state_) + kTimeDigits * time * speed_of(system_, segment_, state_);
   }
 
   std::optional<Fault> loaded(const ContactSeries& contact) const {
@@ -100,10 +103,10 @@ class SegmentCheck {
     const double n = value_at(contact.normal_force, order, t_), t = value_at(contact.tangential_force, order, t_);
     if (!std::isfinite(n) || !std::isfinite(t)) return fault(Invariant::finite, "contact force", n + t);
 
-    const double speed = speed_of(system_, segment_, state_), digits = kDigits + kCut * tolerance_;
+    const double speed = speed_of(system_, segment_, state_);
     const double n_terms = magnitude_at(contact.normal_force, order, t_);
     const double rate_noise =
-        digits * speed + kDigits * fastest_ + kPlaceDigits * gripper_rate(system_) * length_of(system_, state_);
+        digits_ * speed + kDigits * fastest_ + kPlaceDigits * gripper_rate(system_) * length_of(system_, state_);
     const double n_noise = p.stiffness * depth_noise() + p.damping * rate_noise + (kDigits + tolerance_) * n_terms +
                            cut_of(contact.normal_force, order, t_);
     if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
@@ -115,7 +118,7 @@ class SegmentCheck {
                  limit = system_.friction * std::max(n, 0.0);
     double t_noise = system_.friction * n_noise + (kDigits + tolerance_) * t_terms;
     const double slip_noise =
-        kSlipErrors * (digits + tolerance_) * speed + mobility(system_, p) * (n_noise + t_noise) * segment_.duration;
+        kSlipErrors * (digits_ + tolerance_) * speed + mobility(system_, p) * (n_noise + t_noise) * segment_.duration;
     if (system_.regularization > 0.0) t_noise += limit * slip_noise / system_.regularization;
     if (std::abs(t) > limit + t_noise) return fault(Invariant::friction_cone, "|T| - f N", std::abs(t) - limit);
     // judged by the energy that it feeds in, for a last digit of V may stay where an event has ended a segment at once
@@ -162,11 +165,12 @@ class SegmentCheck {
     return {};
   }
 
-  static constexpr double kCut = 1e-2;  ///< part of the tolerance that a step may be wrong by
+  static constexpr double kCut = 1e-2;  ///< part of the tolerance that a step may be wrong by; an implicit one by all
 
   const System& system_;
   double tolerance_, fastest_;
   const Segment& segment_;
+  double digits_;  ///< of lengths and speeds
   double t_ = 0.0;
   State state_;
 };

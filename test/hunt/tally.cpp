@@ -45,7 +45,7 @@ std::string summary(const Tally& t, Range range) {
     text += row(to_string(outcome), t.outcomes[static_cast<std::size_t>(outcome)], t.scenes);
   text += row("refused: no start", t.without_start, t.scenes);
   for (const auto& [reason, count] : t.refusals) text += row(("refused: " + reason).c_str(), count, t.scenes);
-  text += row("too sensitive to compare mirrored", t.sensitive, t.scenes);
+  text += row("too sensitive to compare", t.sensitive, t.scenes);
   text += row("open faults", t.open, t.scenes);
   text += "invariants broken\n";
   for (int i = 0; i < kInvariantCount; ++i)

@@ -20,6 +20,9 @@ constexpr int kNudges = 8;
 /// A trial that makes this of its last digits says nothing of its mirror image, in which another touch may come or go.
 constexpr double kChaos = 1e-5;
 
+/// An implicit step leaves up to the tolerance: so many times as much may be left of many.
+constexpr double kStepErrors = 10.0;
+
 /// The start moved in its last digits, or by what the solver's tolerance cuts off; `part` of it, from -1 to 1.
 Scene nudged(Scene s, double part) {
   const double share = part * (1e-13 + 1e-2 * s.solver.tolerance);
@@ -31,24 +34,44 @@ Scene nudged(Scene s, double part) {
 }
 
 /// How far the trial answers to its last digits; infinite if a touch comes or goes.
-double sensitivity(const System& system, const Scene& scene, const Trace& trace) {
+double sensitivity(const System& system, const Scene& scene, const Trace& trace, Compared compared) {
   double largest = 0.0;
   for (int n = 1; n <= kNudges / 2; ++n)
     for (const double sign : {1.0, -1.0}) {
       const double part = sign * 2.0 * n / kNudges;
-      largest = std::max(largest, difference(system, trace, run_trial(nudged(scene, part), false)));
+      largest = std::max(largest, difference(system, trace, run_trial(nudged(scene, part), false), compared));
     }
   return largest;
 }
 
-void compare_with_mirror_image(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
-  const double apart = difference(system, trace, mirrored(run_trial(test::mirrored(scene), false)));
-  if (apart <= 1e-9 + scene.solver.tolerance) return;
-  const double own = sensitivity(system, scene, trace);
+/// A trace that is to be the same as that of the trial, and how.
+struct Counterpart {
+  Trace trace;
+  Compared compared;
+  double allowed;       ///< difference
+  Invariant invariant;  ///< that says so
+};
+
+/// A fault where the two are further apart than is allowed, and than starts that differ in the last digits make them.
+void compare(const Scene& scene, const System& system, const Trace& trace, const Counterpart& other, Verdict& verdict) {
+  const double apart = difference(system, trace, other.trace, other.compared);
+  if (apart <= other.allowed) return;
+  const double own = sensitivity(system, scene, trace, other.compared);
   if (own > kChaos || apart <= 100.0 * own)
     verdict.sensitive = true;
   else
-    verdict.faults.push_back({Invariant::mirror, "difference = " + std::to_string(apart)});
+    verdict.faults.push_back({other.invariant, "difference = " + std::to_string(apart)});
+}
+
+Counterpart mirror_image(const Scene& scene) {
+  return {mirrored(run_trial(test::mirrored(scene), false)), Compared::places_and_rates, 1e-9 + scene.solver.tolerance,
+          Invariant::mirror};
+}
+
+Counterpart by_event(Scene scene) {
+  const double allowed = 1e-9 + kStepErrors * scene.solver.tolerance;
+  scene.solver.name = "event";
+  return {run_trial(scene, false), Compared::places, allowed, Invariant::methods_agree};
 }
 
 /// Some rate that no two scenes share.
@@ -72,7 +95,9 @@ void judge_trial(const Scene& scene, const System& system, Range range, Verdict&
   }
   if (const auto fault = check_energy(scene, trace)) verdict.faults.push_back(*fault);
   compare_with_sampled(scene, trace, verdict);
-  compare_with_mirror_image(scene, system, trace, verdict);
+  compare(scene, system, trace, mirror_image(scene), verdict);
+  if (scene.solver.name == "implicit" || scene.solver.name == "auto")
+    compare(scene, system, trace, by_event(scene), verdict);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace vibratory_alignment::hunt {
 struct Verdict {
   bool has_start = true;   ///< false: the scene was refused before anything ran
   std::string refusal;     ///< why the solver gave up, empty if it did not
-  bool sensitive = false;  ///< mirror images differ, but so do starts that differ in the last digits
+  bool sensitive = false;  ///< mirror images or methods differ, but so do starts that differ in the last digits
   bool open = false;       ///< its faults are known, and taken out of `faults`
   Outcome outcome = Outcome::running;
   std::uint64_t digest = 0;  ///< of the answer
