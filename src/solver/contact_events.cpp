@@ -231,6 +231,14 @@ class Search {
     double time[2] = {kNoRoot, kNoRoot};
   };
 
+  /// Zeros that a limit of friction or sliding starts with. The polynomials of an implicit step have them but for its
+  /// error, which may be as large as what follows: where that leads away from the limit, it counts.
+  int zeros_of_limit(const Series& g, int pinned) const {
+    for (int k = 1; k < pinned && segment_.coarse; ++k)
+      if (g[k] > 0.0) return k;
+    return pinned;
+  }
+
   SlipTimes find_slips(Site site, int loaded) {
     const ContactSeries& contact = segment_.loaded[loaded];
     const Slip slip = segment_.contacts[static_cast<std::size_t>(site)].slip;
@@ -247,7 +255,7 @@ class Search {
         if (pins.slip > MotionSeries::kHeldPowers || stays_at_rest(loaded)) break;
         for (int k = 0; k <= order_; ++k) g[k] = sign * contact.slip_velocity[k];
         g[0] -= layer;
-        times.time[0] = first_fall(g, order_, duration_, pins.slip);
+        times.time[0] = first_fall(g, order_, duration_, zeros_of_limit(g, pins.slip));
         break;
       }
       case Slip::stick:
@@ -256,7 +264,7 @@ class Search {
           for (int k = 0; k < order_; ++k) g[k] = f * contact.normal_force[k] - sign * contact.tangential_force[k];
           const int zeros = i == 0 ? pins.hold_plus : pins.hold_minus;
           if (zeros < MotionSeries::kHeldPowers)
-            times.time[i] = fall_before(i == 0 ? kNoRoot : times.time[0], g, order_ - 1, zeros);
+            times.time[i] = fall_before(i == 0 ? kNoRoot : times.time[0], g, order_ - 1, zeros_of_limit(g, zeros));
         }
         break;
       case Slip::regularized: {
@@ -282,8 +290,7 @@ class Search {
   }
 
   /// k(n) and h(n) that turn with the part fall off more slowly in the series than the motion by which the step is
-  /// chosen, as do rates of depths beside an implicit step's: the time at which they load again is corrected by the
-  /// state there. `g`: -(k d + h d').
+  /// chosen: the time at which they load again is corrected by the state there. `g`: -(k d + h d').
   double reload_time(double found, Site site, Face face, const Series& g) const {
     double slope = 0.0, time = found;
     for (int k = order_ - 1; k >= 1; --k) slope = slope * found + k * g[k];
@@ -314,7 +321,7 @@ class Search {
       for (int k = 0; k < order_; ++k) g[k] = -g[k];
       const double time = first_fall(g, order_ - 1, duration_, pins_[index].normal);
       const bool turning = is_part_face(face) && !system_.isotropic;
-      offer((turning || segment_.coarse) && time > 0.0 ? reload_time(time, site, face, g) : time, EventKind::reload, site);
+      offer(turning && time > 0.0 ? reload_time(time, site, face, g) : time, EventKind::reload, site);
     }
     guard_limits(site, face);
   }

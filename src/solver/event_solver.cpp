@@ -58,9 +58,9 @@ constexpr int kMaxEventsWithoutProgress = 100;
 /// From so many on the polynomials of an implicit step contradict what the series have decided: these go on.
 constexpr int kContradiction = 4;
 
-/// An event may lie this much later than an implicit step that was taken again to end there, as a share of it, and
-/// earlier without one more; how often it is taken again.
-constexpr double kMostShift = 1e-3;
+/// An implicit step that was taken again to end at an event may have it this much later, as a share of the step; it is
+/// taken again until it has it within the second of these, so often at most.
+constexpr double kMostDelay = 1e-3, kMostShift = 1e-6;
 constexpr int kMostRetakes = 8;
 
 /// Lengths that are tried, each half of the one before, where a shorter step does not converge.
@@ -203,12 +203,11 @@ State EventSolver::flight_state(double duration) const {
   return state;
 }
 
-/// The time of a crossing in flight, found in the series to their truncation error, in the closed form: one step of
-/// Newton's method leaves the square of that error.
+/// The time of a crossing, found in the series of the points to their truncation error, in the closed form of a flight
+/// or the polynomials of an implicit step: one step of Newton's method leaves the square of that error.
 double EventSolver::crossing_time(double found, const Event& event) const {
   const auto point_at = [&](double time) {
-    State state;
-    flight_.at(segment_.flight_time + time, state);
+    const State state = implicit_now_ ? state_at(segment_, time) : flight_state(time);
     return contact_kinematics(system_, state, event.site, event.face);
   };
   const ContactKinematics k = point_at(found);
@@ -340,8 +339,7 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
   }
   if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
   const double step = implicit_contact_step({longest}, drives);
-  if (step == 0.0) fail("an implicit step does not converge");
-  return step;
+  return step > 0.0 ? step : series_contact_step(longest, drives);
 }
 
 /// True when the series of a contact step have an event within `step`.
@@ -382,7 +380,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
 /// An implicit step; 0 when there is none within the bounds.
 double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveForms& drives) {
   const double step = implicit_.take(state_, drives, bounds, segment_, counts_);
-  if (step == 0.0) return 0.0;
+  if (step == 0.0 || excess_friction(system_, segment_, 0.0) > kExcessFriction) return 0.0;
   implicit_now_ = true;
   implicit_length_ = step;
   series_.adopt(segment_);
@@ -402,17 +400,16 @@ double EventSolver::shorten_implicit_step(double step) {
 }
 
 /// Takes the implicit step again to the events found in it, until they are where the shorter step, which is the more
-/// exact one, has them. None are left where only a step that ends before them converges.
+/// exact one, has them. None are left where that has none, or where only a step that ends before them converges.
 void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found) {
   for (int i = 0; i < kMostRetakes && found.time > kHardly * now_.high; ++i) {
     const double length = shorten_implicit_step(found.time);
     if (length == 0.0) return;
-    FoundEvents nearer;
-    segment_.duration = (1.0 + kMostShift) * length;
-    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, nearer);
-    if (nearer.count == 0 && length == found.time) return;
-    found = nearer;
-    if (found.count == 0 || found.time >= (1.0 - kMostShift) * length) return;
+    found.clear();
+    segment_.duration = (1.0 + kMostDelay) * length;
+    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
+    if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
+    if (found.count == 0 || std::abs(found.time - length) <= kMostShift * length) return;
   }
 }
 

@@ -46,6 +46,20 @@ TEST(Hunt, does_not_take_the_digits_of_an_answer_for_faults) {
   }
 }
 
+// Implicit steps that were cut short by an event: points left inside the base, forces on the wrong side of their
+// limits, equations that a shorter step did not solve, and steps so short that their powers overflow.
+TEST(Hunt, finds_nothing_any_more_in_implicit_steps_to_events) {
+  HuntOptions options;
+  for (const std::uint64_t seed : {3029u, 7091u, 10850u, 16863u, 22188u, 27714u, 30516u, 36423u, 43238u, 44066u, 44107u,
+                                   52378u, 53899u, 54873u, 58030u, 58595u})
+    for (const char* solver : {"implicit", "auto"}) {
+      options.solver = solver;
+      const Verdict verdict = judge(scene_of(seed, options), Range::ordinary);
+      for (const Fault& fault : verdict.faults) ADD_FAILURE() << solver << ", seed " << seed << ": " << fault.detail;
+      EXPECT_EQ(verdict.refusal, "") << solver << ", seed " << seed;
+    }
+}
+
 TEST(Tally, tells_answers_apart_but_not_their_order) {
   Verdict one, other;
   one.digest = 1;

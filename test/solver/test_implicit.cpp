@@ -14,6 +14,7 @@
 #include "solver/event_solver.h"
 #include "solver/implicit_step.h"
 #include "solver/stage_equations.h"
+#include "trial/simulation.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -359,6 +360,51 @@ trial: {time_limit: 0.47683951821407833})"),
     const TrialResult result = run_with(scene, "implicit", tolerance);
     EXPECT_LT(test::distance(result.final_state, expected), 100.0 * tolerance) << tolerance;
   }
+}
+
+// What is found inside a long step lies elsewhere in the step that is taken again to end there: that one is to end
+// where its own event is. There N is zero, and a base without damping has let go of the point.
+TEST(Implicit, a_release_is_where_its_step_ends) {
+  long releases = 0;
+  for (const char* damping : {"base.damping.y=0", "base.damping.y=20"})
+    for (const char* law : {"friction.regularization=0.002", "friction.coefficient=0.2"}) {
+      Scene scene = test::scene_of(test::plain, {damping, law, "trial.time_limit=8"});
+      scene.solver.name = "implicit";
+      scene.solver.tolerance = 1e-4;
+      Simulation simulation(scene);
+      while (simulation.advance()) {
+        const Segment& s = simulation.segment();
+        for (int i = 0; i < s.event_count && s.coarse; ++i) {
+          if (s.events[static_cast<std::size_t>(i)].kind != EventKind::release) continue;
+          const ContactSeries& contact = s.loaded[0];
+          ++releases;
+          EXPECT_NEAR(value_at(contact.normal_force, s.order, s.duration), 0.0, 1e-10 * contact.normal_force[0]);
+        }
+      }
+    }
+  EXPECT_GT(releases, 20);
+}
+
+// In the tanh layer a contact is stiff as long as N is large: a step up to its release sees at its start nothing of the
+// slip in which it ends.
+TEST(Implicit, follows_the_slip_of_a_contact_that_is_released_in_the_tanh_layer) {
+  const Scene scene = load_scene(YAML::Load(R"(name: released_in_the_layer
+units: dimensionless
+part: {half_width: 0.165, base_distance: 1.2613, inertia: 0.012565}
+slot: {clearance: 0.000553}
+gripper: {stiffness: {x: 0}, anchor: {x: 0.12228, phi: 0}, pressing_force: 0.6639}
+base: {stiffness: {x: 253.13, y: 730.38}, damping: {y: 6.373}}
+contacts: [edges, corners]
+friction: {coefficient: 4.0815, regularization: 0.0009076}
+excitation:
+  - {amplitude: 1, frequency: 0.54377}
+  - {amplitude: 0.22208, frequency: 13.513, direction: phi}
+initial: {x: 0.12228, y: 1.18865, phi: 0.00475, vx: -1.8095, vy: -0.72854, omega: -5.7514}
+trial: {time_limit: 0.5})"),
+                                 "test");
+  const State expected = run_with(scene, "event", 1e-10).final_state;
+  for (const double tolerance : {4e-7, 2e-7, 1e-7})
+    EXPECT_LT(test::distance(run_with(scene, "implicit", tolerance).final_state, expected), tolerance) << tolerance;
 }
 
 // Rounding may leave nothing, or a last digit, of the way to a kink.
