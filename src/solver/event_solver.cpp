@@ -63,6 +63,9 @@ constexpr int kContradiction = 4;
 constexpr double kMostDelay = 1e-3, kMostShift = 1e-6;
 constexpr int kMostRetakes = 8;
 
+/// Steps this short, relative to the time, change the state by hardly more than its last digits.
+constexpr double kMinute = 1e-12;
+
 /// Lengths that are tried, each half of the one before, where a shorter step does not converge.
 constexpr int kMostShorter = 6;
 
@@ -247,6 +250,7 @@ void EventSolver::go_to_end() {
   const bool hardly = implicit_now_ && segment_.duration <= kHardly * end.high;
   const bool progress = (end.high != now_.high || end.low != now_.low) && !hardly;
   events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
+  if (progress) implicit_.leave_start();
   by_implicit_step_ = implicit_now_ || (by_implicit_step_ && !progress);
   now_ = end;
   if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
@@ -400,14 +404,17 @@ double EventSolver::shorten_implicit_step(double step) {
 }
 
 /// Takes the implicit step again to the events found in it, until they are where the shorter step, which is the more
-/// exact one, has them. None are left where that has none, or where only a step that ends before them converges.
+/// exact one, has them. None are left where that has none, unless it is so short that rounding holds the state, or
+/// where only a step that ends before them converges.
 void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found) {
   for (int i = 0; i < kMostRetakes && found.time > kHardly * now_.high; ++i) {
     const double length = shorten_implicit_step(found.time);
     if (length == 0.0) return;
+    const FoundEvents before = found;
     found.clear();
     segment_.duration = (1.0 + kMostDelay) * length;
     find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
+    if (found.count == 0 && length <= kMinute * now_.high) found = before;
     if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
     if (found.count == 0 || std::abs(found.time - length) <= kMostShift * length) return;
   }

@@ -29,6 +29,9 @@ constexpr double kNegligible = 1e-2;
 /// Amplitude of what a trial's first step may pass over, as a multiple of its tolerance, in lengths of the part.
 constexpr double kPassedOver = 100.0;
 
+/// Nodes that lead back to the velocity of a start without ring.
+constexpr std::size_t kFirstNodes = 3;
+
 double longest_drive_step(const DriveForms& drives) {
   double fastest = 0.0;
   for (int i = 0; i < drives.count; ++i)
@@ -47,11 +50,20 @@ double base_time(const System& system) {
   return 1.0 / std::max(std::sqrt(stiffness * mobility), damping * mobility);
 }
 
+/// The same at most: where the part does not turn.
+double slow_base_time(const System& system) {
+  const double mobility = std::max(system.x.inverse_inertia, system.y.inverse_inertia);
+  const double stiffness = std::min(system.stiffness_x, system.stiffness_y);
+  const double damping = std::min(system.damping_x, system.damping_y);
+  return 1.0 / std::max(std::sqrt(stiffness * mobility), damping * mobility);
+}
+
 }  // namespace
 
 ImplicitStep::ImplicitStep(const System& system, double tolerance)
     : equations_(system, tolerance),
       base_time_(base_time(system)),
+      slow_base_time_(slow_base_time(system)),
       most_passed_over_(kPassedOver * tolerance * (system.half_width + system.base_distance)) {}
 
 void ImplicitStep::restart(bool base_rings) {
@@ -87,11 +99,31 @@ double ImplicitStep::error(double h) const {
   return h * collocation().eigenvalue[0].real() * size;
 }
 
+/// What the velocities miss at the start: the step begins with it and goes on, from its first node, as if it had begun
+/// with the one that its first nodes lead back to.
+StageAxes ImplicitStep::velocity_missed_at_start() const {
+  const Collocation& table = collocation();
+  const State& start = equations_.start();
+  StageAxes missed = {start.vx, start.vy, start.omega};
+  for (std::size_t i = 0; i < kFirstNodes; ++i) {
+    double weight = 1.0;
+    for (std::size_t j = 0; j < kFirstNodes; ++j)
+      if (j != i) weight *= table.node[j] / (table.node[j] - table.node[i]);
+    const State& stage = equations_.stage(i);
+    missed[0] -= weight * stage.vx;
+    missed[1] -= weight * stage.vy;
+    missed[2] -= weight * stage.omega;
+  }
+  return missed;
+}
+
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
-/// the missed accelerations is that amplitude, times the square of its rate, which the filter divides by.
+/// the missed accelerations is that amplitude, times the square of its rate, which the filter divides by; in the missed
+/// velocities it is the amplitude times its rate.
 bool ImplicitStep::passes_over_too_much(double h) const {
   const double length = h * collocation().eigenvalue[0].real();
-  return length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_;
+  return length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_ ||
+         slow_base_time_ * equations_.size_of(velocity_missed_at_start()) > most_passed_over_;
 }
 
 double ImplicitStep::take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
@@ -104,9 +136,9 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   const double shortest = std::max(bounds.shortest, kShortest * longest);
   const long evaluations_before = counts.rhs_evaluations;
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
-  const bool passes_over = next_step_ == 0.0 && bounds.shortest > 0.0;
+  const bool passes_over = at_start_ && bounds.shortest > 0.0;
   double last_error = std::numeric_limits<double>::infinity();
-  bool tried = false, very_first = next_step_ == 0.0;
+  bool tried = false, very_first = at_start_;
   for (; h > shortest; tried = true, ++counts.rejected) {
     if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return 0.0;
     if (!equations_.solve(h, counts, bounds.easily)) {

@@ -35,6 +35,9 @@ class ImplicitStep {
   /// its error in the tanh layer, of which the longer step has seen less, is too large.
   bool retake(double h, Segment& segment, SolverCounts& counts);
 
+  /// Time has passed: the steps to come are none at the start of the trial.
+  void leave_start() { at_start_ = false; }
+
   /// Length that the next step is tried with first.
   void suggest(double step) { next_step_ = step; }
 
@@ -55,16 +58,18 @@ class ImplicitStep {
   static constexpr int kStages = Collocation::kStages;
 
   StageAxes missed_at_start() const;
+  StageAxes velocity_missed_at_start() const;
   double error(double h) const;
   bool passes_over_too_much(double h) const;
   double growth(double h, double ratio) const;
   void fill(double h, Segment& segment) const;
 
   StageEquations equations_;
-  double base_time_, most_passed_over_;
+  double base_time_, slow_base_time_, most_passed_over_;
   double next_step_ = 0.0;                       ///< length that the last step suggests
   double restart_step_ = 0.0;                    ///< length of the first step after the last jump
   double last_length_ = 0.0, last_ratio_ = 1.0;  ///< of the last step, and its error over the one allowed
+  bool at_start_ = true;                         ///< of the trial, where a step may pass over a ring
   bool restarts_ = false;                        ///< the next step is such a first one
   bool taken_ = false;                           ///< the last step was taken, and the forces have not jumped since
   bool follows_ = false;                         ///< so at the start of the present step

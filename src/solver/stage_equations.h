@@ -38,6 +38,7 @@ class StageEquations {
   const Load3& drive(std::size_t stage) const { return drive_[stage]; }
   const Forces& forces(std::size_t stage) const { return forces_[stage]; }
   const Stages& acceleration() const { return acceleration_; }
+  const State& stage(std::size_t stage) const { return stage_[stage]; }
   const State& end() const { return stage_[kStages - 1]; }
 
   /// Error of the velocities that the step may make.

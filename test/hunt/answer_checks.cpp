@@ -65,7 +65,8 @@ std::optional<Fault> check_finite(const TrialResult& r) {
 std::optional<Fault> check_energy(const Scene& scene, const Trace& trace) {
   const EnergyLedger& e = *trace.result.energy;
   const double noise = 1e-12 * energy_terms(scene, e) + trace.energy_noise;
-  const double allowed = 10.0 * scene.solver.tolerance * e.exchanged + noise;
+  const double errors = scene.solver.name == "event" ? 10.0 : kStepErrors;
+  const double allowed = errors * scene.solver.tolerance * e.exchanged + noise;
   const double losses = e.gripper_loss + e.base_loss + e.friction_loss + e.release_loss;
   const double balance = e.final - e.initial - (e.excitation_work + e.turning - losses);
   if (!(std::abs(balance) <= allowed))

@@ -10,6 +10,9 @@
 
 namespace vibratory_alignment::hunt {
 
+/// An implicit step leaves up to the tolerance: so many times as much may be left of many.
+constexpr double kStepErrors = 100.0;
+
 /// Why the solver gave up, without time and place; empty if it did not. It says so, with a reason: that is a refusal.
 /// In scenes far beyond what is physical it may; in ordinary ones only for the step limit, which the hunt sets low.
 std::string refusal(const TrialResult& result);
@@ -20,7 +23,8 @@ std::optional<Fault> check_ending(const TrialResult& result, Range range);
 /// The result holds no NaN and nothing infinite.
 std::optional<Fault> check_finite(const TrialResult& result);
 
-/// The ledger closes to ten times the solver's tolerance, and every loss is one.
+/// The ledger closes to ten times the solver's tolerance (kStepErrors times with implicit steps), and every loss is
+/// one.
 std::optional<Fault> check_energy(const Scene& scene, const Trace& trace);
 
 /// Two answers are the same to the last bit.

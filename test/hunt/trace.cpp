@@ -12,6 +12,8 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
+constexpr double kSameTime = 1e-12;
+
 bool ends_with_touch(const Segment& segment) {
   for (int i = 0; i < segment.event_count; ++i)
     if (segment.events[static_cast<std::size_t>(i)].kind == EventKind::touch) return true;
@@ -50,6 +52,8 @@ Trace run_trial(const Scene& scene, bool checked) {
     }
     if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
     if (!ends_with_touch(segment)) continue;
+    // where rounding decides whether a point stays, it may touch several times at once
+    if (!trace.touches.empty() && segment.end_time() - trace.touches.back().time <= kSameTime) continue;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
   }

@@ -20,9 +20,6 @@ constexpr int kNudges = 8;
 /// A trial that makes this of its last digits says nothing of its mirror image, in which another touch may come or go.
 constexpr double kChaos = 1e-5;
 
-/// An implicit step leaves up to the tolerance: so many times as much may be left of many.
-constexpr double kStepErrors = 10.0;
-
 /// The start moved in its last digits, or by what the solver's tolerance cuts off; `part` of it, from -1 to 1.
 Scene nudged(Scene s, double part) {
   const double share = part * (1e-13 + 1e-2 * s.solver.tolerance);

@@ -407,6 +407,29 @@ trial: {time_limit: 0.5})"),
     EXPECT_LT(test::distance(run_with(scene, "implicit", tolerance).final_state, expected), tolerance) << tolerance;
 }
 
+// A part that starts at rest on a stiff base whose static place moves rings with that speed. The ring is small, but
+// once the part is released it flies with the ring's speed: the place at the end is that of `event`.
+TEST(Implicit, passes_over_no_ring_whose_speed_shows_after_a_release) {
+  const Scene scene = load_scene(YAML::Load(R"(name: ring_of_speed
+units: dimensionless
+part: {half_width: 0.5, base_distance: 0.8}
+slot: {clearance: 0.01}
+gripper: {stiffness: {x: 0}, anchor: {x: 0.2, phi: 0}, pressing_force: 0.6}
+base: {stiffness: {y: 40000}}
+contacts: [edges]
+excitation: {amplitude: 1.5, frequency: 0.7}
+initial: {x: 0.2}
+trial: {time_limit: 9})"),
+                                 "test");
+  const TrialResult expected = run_with(scene, "event", 1e-12);
+  ASSERT_GT(expected.impacts[0] + expected.impacts[1], 0);
+  for (const char* solver : {"implicit", "auto"})
+    for (const double tolerance : {1e-6, 1e-7, 1e-8}) {
+      const State end = run_with(scene, solver, tolerance).final_state;
+      EXPECT_LT(test::distance(end, expected.final_state), 100.0 * tolerance) << solver << " " << tolerance;
+    }
+}
+
 // Rounding may leave nothing, or a last digit, of the way to a kink.
 TEST(Implicit, goes_over_every_kink_of_the_excitation) {
   for (const Waveform waveform : {Waveform::square, Waveform::triangle})
