@@ -416,7 +416,15 @@ void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found)
     find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
     if (found.count == 0 && length <= kMinute * now_.high) found = before;
     if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
-    if (found.count == 0 || std::abs(found.time - length) <= kMostShift * length) return;
+    if (found.count == 0) return;
+    if (std::abs(found.time - length) > kMostShift * length) continue;
+    // what coincided before does so to within the error of the step
+    if (found.count < before.count) {
+      const double time = found.time;
+      found = before;
+      found.time = time;
+    }
+    return;
   }
 }
 
