@@ -63,6 +63,9 @@ constexpr int kContradiction = 4;
 constexpr double kMostDelay = 1e-3, kMostShift = 1e-6;
 constexpr int kMostRetakes = 8;
 
+/// A correction that is not this much smaller than the one before is not worth one more.
+constexpr double kSlowShift = 0.5;
+
 /// Steps this short, relative to the time, change the state by hardly more than its last digits.
 constexpr double kMinute = 1e-12;
 
@@ -407,6 +410,7 @@ double EventSolver::shorten_implicit_step(double step) {
 /// exact one, has them. None are left where that has none, unless it is so short that rounding holds the state, or
 /// where only a step that ends before them converges.
 void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found) {
+  double shift_before = kInfinity;
   for (int i = 0; i < kMostRetakes && found.time > kHardly * now_.high; ++i) {
     const double length = shorten_implicit_step(found.time);
     if (length == 0.0) return;
@@ -417,7 +421,12 @@ void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found)
     if (found.count == 0 && length <= kMinute * now_.high) found = before;
     if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
     if (found.count == 0) return;
-    if (std::abs(found.time - length) > kMostShift * length) continue;
+    const double shift = std::abs(found.time - length);
+    if (shift > kMostShift * length) {
+      if (shift > kSlowShift * shift_before) return;  // rounding is all that moves it
+      shift_before = shift;
+      continue;
+    }
     // what coincided before does so to within the error of the step
     if (found.count < before.count) {
       const double time = found.time;
