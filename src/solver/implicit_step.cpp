@@ -39,23 +39,26 @@ double longest_drive_step(const DriveForms& drives) {
   return fastest > 0.0 ? kLongestDrive / fastest : std::numeric_limits<double>::infinity();
 }
 
-/// Time in which the base alone answers, at least: its period over 2 pi, or the time in which its damper stops the
-/// part.
-double base_time(const System& system) {
-  const double reach = system.half_width * system.half_width + system.base_distance * system.base_distance;
-  const double mobility =
-      std::max(system.x.inverse_inertia, system.y.inverse_inertia) + reach * system.phi.inverse_inertia;
-  const double stiffness = std::max(system.stiffness_x, system.stiffness_y);
-  const double damping = std::max(system.damping_x, system.damping_y);
+/// Time in which the base alone answers: its period over 2 pi, or the time in which its damper stops the part.
+double answer_time(double stiffness, double damping, double mobility) {
   return 1.0 / std::max(std::sqrt(stiffness * mobility), damping * mobility);
 }
 
-/// The same at most: where the part does not turn.
+double most_mobility_of_mass(const System& system) {
+  return std::max(system.x.inverse_inertia, system.y.inverse_inertia);
+}
+
+/// At least: in the stiffer direction, at the part's farthest point.
+double base_time(const System& system) {
+  const double reach = system.half_width * system.half_width + system.base_distance * system.base_distance;
+  return answer_time(std::max(system.stiffness_x, system.stiffness_y), std::max(system.damping_x, system.damping_y),
+                     most_mobility_of_mass(system) + reach * system.phi.inverse_inertia);
+}
+
+/// At most: in the softer direction, where the part does not turn.
 double slow_base_time(const System& system) {
-  const double mobility = std::max(system.x.inverse_inertia, system.y.inverse_inertia);
-  const double stiffness = std::min(system.stiffness_x, system.stiffness_y);
-  const double damping = std::min(system.damping_x, system.damping_y);
-  return 1.0 / std::max(std::sqrt(stiffness * mobility), damping * mobility);
+  return answer_time(std::min(system.stiffness_x, system.stiffness_y), std::min(system.damping_x, system.damping_y),
+                     most_mobility_of_mass(system));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ std::optional<Fault> check_finite(const TrialResult& r) {
 std::optional<Fault> check_energy(const Scene& scene, const Trace& trace) {
   const EnergyLedger& e = *trace.result.energy;
   const double noise = 1e-12 * energy_terms(scene, e) + trace.energy_noise;
-  const double errors = scene.solver.name == "event" ? 10.0 : kStepErrors;
+  const double errors = takes_implicit_steps(scene) ? kStepErrors : 10.0;
   const double allowed = errors * scene.solver.tolerance * e.exchanged + noise;
   const double losses = e.gripper_loss + e.base_loss + e.friction_loss + e.release_loss;
   const double balance = e.final - e.initial - (e.excitation_work + e.turning - losses);
@@ -97,9 +97,9 @@ double difference(const System& system, const Trace& a, const Trace& b, Compared
     largest = std::max(largest, between(a.touches[i], b.touches[i]));
   if (refused || !a.all_touches) return largest;
   if (a.result.outcome != b.result.outcome) return INFINITY;
-  // a motion that has settled ends with the step in which that is noticed
+  // a motion that has settled ends with the step in which that is noticed: another one where the steps are others
   const bool settled = a.result.outcome == Outcome::stalled || a.result.outcome == Outcome::jammed;
-  if (settled && a.result.final_time != b.result.final_time) return largest;
+  if (compared == Compared::places && settled && a.result.final_time != b.result.final_time) return largest;
   return std::max(largest,
                   between({a.result.final_time, a.result.final_state}, {b.result.final_time, b.result.final_state}));
 }

@@ -4,6 +4,8 @@
 #include <ctime>
 #include <utility>
 
+#include "trace.h"
+
 namespace vibratory_alignment::hunt {
 namespace {
 
@@ -22,7 +24,7 @@ void allow_open_fault(Verdict& verdict) {
 Scene scene_of(std::uint64_t seed, const HuntOptions& options) {
   Scene scene = random_scene(seed, options.range);
   scene.solver.name = options.solver;
-  if (options.solver != "event")
+  if (takes_implicit_steps(scene))
     scene.solver.tolerance = std::clamp(scene.solver.tolerance, kLeastImplicitTolerance, kMostImplicitTolerance);
   return scene;
 }

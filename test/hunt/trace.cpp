@@ -39,6 +39,8 @@ class Digest {
 
 }  // namespace
 
+bool takes_implicit_steps(const Scene& scene) { return scene.solver.name == "implicit" || scene.solver.name == "auto"; }
+
 Trace run_trial(const Scene& scene, bool checked) {
   Trace trace;
   Simulation simulation(scene);
@@ -52,8 +54,9 @@ Trace run_trial(const Scene& scene, bool checked) {
     }
     if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
     if (!ends_with_touch(segment)) continue;
-    // where rounding decides whether a point stays, it may touch several times at once
-    if (!trace.touches.empty() && segment.end_time() - trace.touches.back().time <= kSameTime) continue;
+    // a point that an implicit step has left beside its face may touch several times at once
+    const double since = trace.touches.empty() ? INFINITY : segment.end_time() - trace.touches.back().time;
+    if (takes_implicit_steps(scene) && since <= kSameTime) continue;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
   }

@@ -29,6 +29,9 @@ struct Trace {
 /// Later touches are not compared: each impact can make a difference ten times larger.
 constexpr std::size_t kMaxTouches = 5;
 
+/// True with the solvers whose steps leave errors up to the tolerance.
+bool takes_implicit_steps(const Scene& scene);
+
 /// Runs the trial; `checked`: every segment is held against the invariants.
 Trace run_trial(const Scene& scene, bool checked);
 

@@ -93,8 +93,7 @@ void judge_trial(const Scene& scene, const System& system, Range range, Verdict&
   if (const auto fault = check_energy(scene, trace)) verdict.faults.push_back(*fault);
   compare_with_sampled(scene, trace, verdict);
   compare(scene, system, trace, mirror_image(scene), verdict);
-  if (scene.solver.name == "implicit" || scene.solver.name == "auto")
-    compare(scene, system, trace, by_event(scene), verdict);
+  if (takes_implicit_steps(scene)) compare(scene, system, trace, by_event(scene), verdict);
 }
 
 }  // namespace
