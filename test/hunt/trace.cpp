@@ -41,7 +41,7 @@ class Digest {
 
 bool takes_implicit_steps(const Scene& scene) { return scene.solver.name == "implicit" || scene.solver.name == "auto"; }
 
-Trace run_trial(const Scene& scene, bool checked) {
+Trace run_trial(const Scene& scene, bool checked, bool merges) {
   Trace trace;
   Simulation simulation(scene);
   const System system = make_system(scene);
@@ -56,7 +56,7 @@ Trace run_trial(const Scene& scene, bool checked) {
     if (!ends_with_touch(segment)) continue;
     // a point that an implicit step has left beside its face may touch several times at once
     const double since = trace.touches.empty() ? INFINITY : segment.end_time() - trace.touches.back().time;
-    if (takes_implicit_steps(scene) && since <= kSameTime) continue;
+    if (merges && since <= kSameTime) continue;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
   }

@@ -32,8 +32,11 @@ constexpr std::size_t kMaxTouches = 5;
 /// True with the solvers whose steps leave errors up to the tolerance.
 bool takes_implicit_steps(const Scene& scene);
 
-/// Runs the trial; `checked`: every segment is held against the invariants.
-Trace run_trial(const Scene& scene, bool checked);
+/// Runs the trial; `checked`: every segment is held against the invariants; `merges`: touches at once count as one.
+Trace run_trial(const Scene& scene, bool checked, bool merges);
+inline Trace run_trial(const Scene& scene, bool checked) {
+  return run_trial(scene, checked, takes_implicit_steps(scene));
+}
 
 /// Runs the trial while it is sampled at this interval, with or without its events.
 TrialResult run_sampled(const Scene& scene, double interval, bool with_events);
