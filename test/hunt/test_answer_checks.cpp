@@ -90,5 +90,22 @@ TEST_F(DoctoredAnswer, that_leans_to_one_side) {
   EXPECT_GT(difference(system_, trace_, mirrored(trace_), Compared::places), 1e-3);
 }
 
+// Where steps are others, a settled motion ends later or sooner; in its mirror image it does not.
+TEST_F(DoctoredAnswer, that_settles_at_another_time) {
+  trace_.all_touches = true;
+  trace_.result.outcome = Outcome::stalled;
+  Trace other = trace_;
+  other.result.final_time += 0.1;
+  EXPECT_EQ(difference(system_, trace_, other, Compared::places), 0.0);
+  EXPECT_GT(difference(system_, trace_, other, Compared::places_and_rates), 0.01);
+}
+
+// Touches at once count as one only where that is asked for.
+TEST_F(DoctoredAnswer, whose_touches_are_merged_tells_no_more_of_them_than_there_are) {
+  EXPECT_EQ(run_trial(scene_, false, true).touches.size(), trace_.touches.size());
+  const Scene repeated = random_scene(2410, Range::ordinary);
+  EXPECT_LT(run_trial(repeated, false, true).touches.size(), run_trial(repeated, false, false).touches.size());
+}
+
 }  // namespace
 }  // namespace vibratory_alignment::hunt

@@ -130,6 +130,25 @@ TEST(Judge, finds_what_a_coarse_solver_breaks) {
   EXPECT_TRUE(verdict.breaks(Invariant::ledger_closes));
 }
 
+// A corner leaves an undamped base in bounces of 1e-11, which an implicit step passes over: it has no touches.
+TEST(Judge, finds_methods_that_do_not_agree) {
+  Scene scene = load_scene(YAML::Load(R"(name: small_bounces
+units: dimensionless
+part: {half_width: 1, base_distance: 1, inertia: 1}
+slot: {clearance: 1.0e-8}
+gripper: {anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {y: 1.0e+11}}
+contacts: [corners]
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0, phi: -0.1}
+trial: {time_limit: 0.0005, aligned_depth: 0}
+solver: {name: implicit, tolerance: 1.0e-8})"),
+                           "test");
+  EXPECT_TRUE(judge(scene, Range::ordinary).breaks(Invariant::methods_agree));
+  scene.solver.name = "event";
+  EXPECT_TRUE(judge(scene, Range::ordinary).faults.empty());
+}
+
 TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {
   const Scene scene = load_scene_file(std::string(OPEN_FAULTS) + "/corner_that_slides_by_rounding.yaml");
   EXPECT_TRUE(judge(scene, Range::ordinary).breaks(Invariant::ends));
