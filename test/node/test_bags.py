@@ -65,10 +65,13 @@ class Bags(AlignerTestCase):
     def test_replay_publishes_every_message(self):
         self.addCleanup(rospy.delete_param, '/use_sim_time')
         listeners = {topic: self.subscribe(topic) for topic in TOPICS}
-        self.launch('replay.launch', 'bag:=' + GOLDEN, 'rate:=0.01', 'rviz:=false').wait(60.0)
+        # a busy machine takes its time to connect the listeners, and to send what was published last
+        self.launch('replay.launch', 'bag:=' + GOLDEN, 'rate:=0.01', 'rviz:=false',
+                    'wait_for_subscribers:=true', 'keep_alive:=true')
         for topic, listener in listeners.items():
             expected = read(GOLDEN, topic)
-            self.assertTrue(listener.wait(lambda _: len(self.played(listener)) >= len(expected), 5.0), topic)
+            arrived = listener.wait(lambda _: len(self.played(listener)) >= len(expected), 60.0)
+            self.assertTrue(arrived, '%s: %d of %d' % (topic, len(self.played(listener)), len(expected)))
             played = self.played(listener)
             self.assertIsNone(difference(plain(played), plain(expected), 0.0, topic))
             if topic == '/aligner/state':
