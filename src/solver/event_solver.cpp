@@ -378,7 +378,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
     effort_before_ = effort();
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
     if (step > 0.0) return step;
-    settle(0.0, longest);
+    choice_.give_up_implicit(spent());
   }
   choice_.earn();
   return series_contact_step(longest, drives);
@@ -457,17 +457,19 @@ void EventSolver::believe_state() {
 /// Evaluations and factorizations until now.
 StepEffort EventSolver::effort() const { return {counts_.rhs_evaluations, implicit_.factorizations()}; }
 
+/// What the present implicit step has taken.
+StepEffort EventSolver::spent() const {
+  const StepEffort now = effort();
+  return {now.evaluations - effort_before_.evaluations, now.factorizations - effort_before_.factorizations};
+}
+
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.
 void EventSolver::settle(double gone, double longest) {
-  if (!choice_.implicit()) {
+  if (choice_.implicit())
+    choice_.settle_implicit(gone, longest, spent());
+  else
     choice_.settle_series(gone, longest);
-    return;
-  }
-  const StepEffort now = effort();
-  const StepEffort taken{now.evaluations - effort_before_.evaluations,
-                         now.factorizations - effort_before_.factorizations};
-  choice_.settle_implicit(gone, longest, taken);
 }
 
 const Segment& EventSolver::advance(double limit) {

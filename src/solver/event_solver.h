@@ -41,6 +41,7 @@ class EventSolver final : public Solver {
   bool contradicted() const;
   void believe_state();
   StepEffort effort() const;
+  StepEffort spent() const;
   void settle(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);

@@ -185,22 +185,30 @@ void MethodChoice::settle_series(double gone, double longest) {
 
 void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
   if (gone > 0.0) may_pass_over_ = false;
-  const bool passes_over = attempt_ == Attempt::passes_over;
   attempt_ = Attempt::ordinary;
-  ++implicit_steps_;
-  if (passes_over && gone == 0.0) {  // what the question has cost says nothing about implicit steps
-    leave_to_series(kTrialAfter);
-    return;
-  }
   const double gain = gone / pace() - kKind[kind_].implicit(effort);
-  if (gone == longest && gain < 0.0) return;  // cut short by a kink or the limit, it has not lost
+  if (gone == longest && gain < 0.0)  // cut short by a kink or the limit, it has not lost
+    ++implicit_steps_;
+  else
+    book_implicit(gain);
+}
+
+void MethodChoice::give_up_implicit(const StepEffort& effort) {
+  // what the question whether a ring can be passed over has cost says nothing about implicit steps
+  if (attempt_ != Attempt::passes_over) book_implicit(-kKind[kind_].implicit(effort));
+  attempt_ = Attempt::ordinary;
+  if (implicit_) leave_to_series(kTrialAfter);
+}
+
+void MethodChoice::book_implicit(double gain) {
+  ++implicit_steps_;
   credit_ = std::min(credit_ + gain, kMostCredit);
   rings_ = rings_ && gain < 0.0;
   ++losses_;
   if (rings_ && losses_ >= kMostLosses) {
     losses_ = 0;
     leave_to_series(kTrialAfterRing);
-  } else if (gone == 0.0 || credit_ <= 0.0) {
+  } else if (credit_ <= 0.0) {
     leave_to_series(kTrialAfter);
   }
 }

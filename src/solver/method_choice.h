@@ -61,8 +61,11 @@ class MethodChoice {
   /// The series have gone `gone` of at most `longest` in a step.
   void settle_series(double gone, double longest);
 
-  /// An implicit step has gone `gone` of at most `longest`; 0: was given up.
+  /// An implicit step has gone `gone` of at most `longest`; 0: an event came at once.
   void settle_implicit(double gone, double longest, const StepEffort& effort);
+
+  /// An implicit step was given up.
+  void give_up_implicit(const StepEffort& effort);
 
   /// The normal forces jump: the base rings.
   void ring();
@@ -83,6 +86,7 @@ class MethodChoice {
   enum class Attempt { ordinary, easy_trial, trial, passes_over };
 
   double pace() const;
+  void book_implicit(double gain);
   void leave_to_series(int steps);
 
   std::size_t kind_ = 0;  ///< of the contacts of this step

@@ -110,11 +110,23 @@ TEST(MethodChoice, the_first_trial_in_the_tanh_layer_has_to_be_earned_twice_wher
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   MethodChoice choice;
   const int earned = steps_until_trial(choice);
-  choice.settle_implicit(0.0, kFar, {41, 1});
+  choice.give_up_implicit({41, 1});
   EXPECT_FALSE(choice.implicit());
   const double debt = 0.6 + 41 * 0.165 + 5.5 - earned * kShare;
   EXPECT_GT(debt, 0.0);
   expect_first_from((kTrial * kUsual + debt) / kShare, steps_until_trial(choice));
+}
+
+TEST(MethodChoice, a_step_with_an_event_at_once_is_paid_but_not_given_up) {
+  MethodChoice choice = rich();
+  choice.settle_implicit(0.0, kFar, kEffort);
+  EXPECT_TRUE(choice.implicit());
+  expect_first_from((kRich - kUsual) / kLoss, steps_until_dropped(choice));
+  MethodChoice start;
+  start.look_at(kSliding);
+  start.start_passing_over(1.0);
+  start.settle_implicit(0.0, kFar, kEffort);
+  EXPECT_TRUE(start.may_pass_over());
 }
 
 TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
@@ -151,7 +163,7 @@ TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
   };
   ASSERT_LT(steps_until_trial(choice), 100);
   expect_trial(choice, 2.0, 30, true);
-  choice.settle_implicit(0.0, kFar, kEffort);
+  choice.give_up_implicit(kEffort);
   ASSERT_LT(steps_until_trial(choice), 100);
   expect_trial(choice, 2.0, 50, false);
   ASSERT_LT(steps_until_trial(in_layer, contacts_that({Slip::regularized})), 200);
@@ -225,7 +237,7 @@ TEST(MethodChoice, a_trial_in_a_ring_that_is_given_up_is_not_repeated_so_soon) {
   choice.ring();
   steps_until_dropped(choice);
   ASSERT_EQ(steps_until_trial(choice), 6);
-  choice.settle_implicit(0.0, kFar, kEffort);
+  choice.give_up_implicit(kEffort);
   EXPECT_FALSE(choice.implicit());
   EXPECT_EQ(steps_until_trial(choice), 32);
 }
@@ -399,7 +411,7 @@ TEST(MethodChoice, other_implicit_steps_take_the_trouble) {
 
 TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
   MethodChoice choice = passing();
-  choice.settle_implicit(0.0, kFar, {1000, 1000});
+  choice.give_up_implicit({1000, 1000});
   EXPECT_FALSE(choice.implicit());
   expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));
 }
