@@ -30,7 +30,8 @@ namespace {
 constexpr std::array<const char*, 3> kSolvers = {"event", "implicit", "auto"};
 constexpr double kAllowedRatio = 1.3;
 
-/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these.
+/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these. A random scene
+/// above the ratio allowed gets as many turns more as any other: the clock has slow spells that outlast a few.
 constexpr double kSecondsPerScene = 0.5, kSecondsPerRandomScene = 0.01;
 constexpr std::size_t kFewestTurns = 5, kMostTurns = 101;
 
@@ -140,8 +141,7 @@ void take_turn(const va::Scene& scene, const char* solver, double tolerance, Mea
 
 using Measurement = std::array<Measured, kSolvers.size()>;
 
-Measurement measure(const va::Scene& scene, double tolerance, double seconds) {
-  Measurement all;
+void measure(const va::Scene& scene, double tolerance, double seconds, Measurement& all) {
   double spent = 0.0;
   for (std::size_t turn = 0; turn < kFewestTurns || (spent < seconds && turn < kMostTurns); ++turn) {
     double best = HUGE_VAL;
@@ -155,7 +155,6 @@ Measurement measure(const va::Scene& scene, double tolerance, double seconds) {
       spent += m.seconds.back();
     }
   }
-  return all;
 }
 
 /// Time of the better one of the solvers that `auto` chooses from.
@@ -185,7 +184,8 @@ void print_row(const std::string& label, const Measurement& all) {
 
 /// Prints a row. Returns the time of `auto` over that of the better of the others.
 double report(const std::string& label, const va::Scene& scene, double tolerance) {
-  const Measurement all = measure(scene, tolerance, kSecondsPerScene);
+  Measurement all;
+  measure(scene, tolerance, kSecondsPerScene, all);
   print_row(label, all);
   return ratio_of(all);
 }
@@ -214,7 +214,9 @@ void report_random_scenes(double tolerance) {
     scene.solver.step_limit = kRandomStepLimit;
     Measurement measured;
     try {
-      measured = measure(scene, tolerance, kSecondsPerRandomScene);
+      measure(scene, tolerance, kSecondsPerRandomScene, measured);
+      if (is_above(ratio_of(measured)) && better(measured) < HUGE_VAL)
+        measure(scene, tolerance, kSecondsPerScene, measured);
     } catch (const va::SceneError&) {
       continue;  // it has no start
     }

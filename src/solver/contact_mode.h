@@ -28,6 +28,7 @@ struct ContactMode {
   ContactStates contacts;
   Pins pins;
   Recoveries recoveries;
+  double unheld_slip_rate = 0.0;  ///< V' of what sticks that no T took out when friction was decided last
 };
 
 }  // namespace vibratory_alignment

@@ -87,8 +87,8 @@ constexpr int kMostHalvings = 50;
 /// Friction beyond its limit, relative to it: where it is decided anew, and where that has found no answer.
 constexpr double kExcessFriction = 1e-8, kTooMuchFriction = 1e-3;
 
-/// Factor on rounding beyond which sticking contacts have to move apart.
-constexpr double kPartAllowance = 10.0;
+/// Factor on rounding beyond which sticking contacts have to move apart, and on what friction has left of their V'.
+constexpr double kPartAllowance = 10.0, kLeftAgain = 2.0;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -230,9 +230,10 @@ bool EventSolver::must_part() const {
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k) left = left || series_.not_held(k) > 0.0;
   if (!left) return false;
   const SeriesNoise noise = series_noise(system_, segment_, segment_.duration, kPartAllowance);
+  const double allowed = std::max(noise.held_slip_rate, kLeftAgain * mode_.unheld_slip_rate);
   double power = 1.0;
   for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= segment_.duration)
-    if (series_.not_held(k) * power > noise.held_slip_rate) return true;
+    if (series_.not_held(k) * power > allowed) return true;
   return false;
 }
 

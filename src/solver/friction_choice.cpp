@@ -27,6 +27,10 @@ constexpr double kLimitErrors = 1e4, kSmallestLimitError = 1e-9, kLargestLimitEr
 /// Error of a T that holds a contact, beside that of its limit, up to which it may exceed the limit.
 constexpr double kMostForceNoise = 1e5;
 
+/// V' of contacts that count as the same, which nothing takes out when they stick, beside the V' with which they slide
+/// against their direction: they stick where it is not this many times as large.
+constexpr double kUnheld = 100.0;
+
 /// V' smaller than this beside the accelerations that it is made of is looked at more closely.
 constexpr double kDoubt = 1e-6;
 
@@ -60,6 +64,13 @@ bool FrictionChoice::has_event(std::size_t site) const {
   return known_[site].normal > 0 || known_[site].hold_plus > 0 || known_[site].hold_minus > 0;
 }
 
+/// The largest V' within h of what sticks that no T takes out.
+double FrictionChoice::unheld_slip_rate(double h) const {
+  double most = 0.0, power = 1.0;
+  for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= h) most = std::max(most, series_.not_held(k) * power);
+  return most;
+}
+
 void FrictionChoice::Judgement::contradict(int at_order, double size) {
   if (at_order > order || (at_order == order && size <= excess)) return;
   order = at_order;
@@ -77,7 +88,10 @@ void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, Judgeme
   const bool broken = has_event(site) && std::abs(contact.slip_velocity[1]) <= nearly;
   const LeadingTerm term = leading_term(contact.slip_velocity, broken ? 2 : 1, kOrder, noise.h, limit);
   const bool forward = term.positive == (probe_.contacts[site].slip == Slip::plus);
-  if (term.order <= kOrder && !forward) judgement.contradict(term.order - 1, term.size / limit);
+  if (term.order <= kOrder && !forward) {
+    judgement.contradict(term.order - 1, term.size / limit);
+    judgement.limits_kept = false;
+  }
   SitePins& pins = judgement.mode.pins[site];
   pins.slip = term.order;
   pins.hold_plus = pins.hold_minus = 0;
@@ -102,7 +116,10 @@ void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double
     const int known = sign > 0.0 ? known_[site].hold_plus : known_[site].hold_minus;
     const bool reached = (known > 0 || known_[site].normal > 0) && std::abs(guard[0]) <= nearly;
     const LeadingTerm term = leading_term(guard, reached ? std::max(1, known) : 0, kOrder - 1, noise.h, limit);
-    if (!term.positive) judgement.contradict(term.order, term.size / limit);
+    if (!term.positive) {
+      judgement.contradict(term.order, term.size / limit);
+      judgement.limits_kept = false;
+    }
     (sign > 0.0 ? pins.hold_plus : pins.hold_minus) = term.order;
   }
   pins.slip = 0;
@@ -111,6 +128,7 @@ void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double
 void FrictionChoice::judge(const State& state, const DriveForms& drives, double allowance, Judgement& judgement) {
   judgement.order = Judgement::kNone;
   judgement.excess = 0.0;
+  judgement.limits_kept = true;
   probe_.contacts = judgement.mode.contacts;
   series_.expand_contact(hold_sticking(system_, state, probe_.contacts), drives, kOrder, probe_);
   double h = std::min({1.0, series_step(system_, probe_, kProbeTolerance),
@@ -118,8 +136,10 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
   SeriesNoise noise = series_noise(system_, probe_, h, allowance);
   if (!(h > 0.0) || !noise.is_finite()) {
     judgement.contradict(-1, INFINITY);
+    judgement.limits_kept = false;
     return;
   }
+  judgement.mode.unheld_slip_rate = unheld_slip_rate(h);
   // can those that stick hold together?
   double power = 1.0;
   const double slip_rate = noise.held_slip_rate;
@@ -158,6 +178,7 @@ bool FrictionChoice::decide_alone(const State& state, const DriveForms& drives, 
   // N is below zero by its last digits: it slides either way, and what it would take to stick tells which
   if (plus > 0.0 && minus < 0.0) return false;
   mode.contacts[site].slip = plus > 0.0 ? Slip::plus : minus < 0.0 ? Slip::minus : Slip::stick;
+  mode.unheld_slip_rate = 0.0;
   SitePins& pins = mode.pins[site];
   pins.slip = mode.contacts[site].slip == Slip::stick ? 0 : 1;
   pins.hold_plus = pins.hold_minus = 0;
@@ -178,7 +199,7 @@ void FrictionChoice::decide(const State& state, const DriveForms& drives, const 
   }
   if (count == 0) return;
   if (count == 1 && !has_event(sites[0]) && decide_alone(state, drives, sites[0], mode)) return;
-  Judgement best, candidate;
+  Judgement best, candidate, all_stick;
   best.order = -2;
   candidate.mode = mode;
   for (const double allowance : kAllowances) {
@@ -200,13 +221,17 @@ void FrictionChoice::decide(const State& state, const DriveForms& drives, const 
         return;
       }
       if (code > 0) continue;
+      all_stick = candidate;
       for (int i = 0; i < probe_.loaded_count; ++i) {
         const ContactSeries& contact = probe_.loaded[static_cast<std::size_t>(i)];
         if (contact.tangential_force[0] > 0.0) likely[static_cast<std::size_t>(contact.site)] = Slip::minus;
       }
     }
   }
-  mode = best.mode;
+  // contacts that count as the same hold each other: each takes a T of its own that is not known, and their V' that
+  // remains is what that T would take out
+  const bool hold = all_stick.limits_kept && all_stick.order == best.order && all_stick.excess < kUnheld * best.excess;
+  mode = hold ? all_stick.mode : best.mode;
 }
 
 }  // namespace vibratory_alignment

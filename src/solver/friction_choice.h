@@ -34,6 +34,7 @@ class FrictionChoice {
     static constexpr int kNone = 1000;
     int order = kNone;
     double excess = 0.0;
+    bool limits_kept = true;  ///< whatever contradicts it is a V' of sticking contacts that no T holds
     ContactMode mode;
 
     bool consistent() const { return order == kNone; }
@@ -46,6 +47,7 @@ class FrictionChoice {
   /// How far a friction force may be from a limit that an event says it has reached, relative to the limit.
   double limit_error() const { return unmoved_ ? 1.0 : limit_tolerance_; }
   bool has_event(std::size_t site) const;
+  double unheld_slip_rate(double h) const;
   bool decide_alone(const State& state, const DriveForms& drives, std::size_t site, ContactMode& mode);
   void judge(const State& state, const DriveForms& drives, double allowance, Judgement& judgement);
   void judge_sliding(int loaded, const SeriesNoise& noise, Judgement& judgement) const;

@@ -150,7 +150,7 @@ solver: {name: implicit, tolerance: 1.0e-8})"),
 }
 
 TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {
-  const Scene scene = load_scene_file(std::string(OPEN_FAULTS) + "/corner_that_slides_by_rounding.yaml");
+  const Scene scene = load_scene_file(std::string(OPEN_FAULTS) + "/base_that_recovers_in_an_ordinary_scene.yaml");
   EXPECT_TRUE(judge(scene, Range::ordinary).breaks(Invariant::ends));
   EXPECT_FALSE(judge(scene, Range::wild).breaks(Invariant::ends));
 }

@@ -328,6 +328,54 @@ excitation: {amplitude: 0, frequency: 1}
 initial: {x: 0, vx: 0, vy: 0, omega: 0}
 trial: {time_limit: 0.04, aligned_depth: 0}
 )"},
+      {"stands_level", R"(
+part: {half_width: 1, base_distance: 1, inertia: 1}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0, phi: 0.01}, anchor: {x: 0, phi: 0.002}, pressing_force: 1}
+base: {stiffness: {y: 9.0e+4}}
+contacts: [walls]
+friction: {coefficient: 1}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0}
+trial: {time_limit: 0.04}
+)"},
+      {"stands_level_while_it_settles", R"(
+part: {half_width: 2, base_distance: 1, inertia: 1}
+slot: {clearance: 1, depth: 1}
+gripper: {stiffness: {x: 0, phi: 0.01}, anchor: {x: 0, phi: 0.03}, pressing_force: 1}
+base: {stiffness: {x: 1, y: 2.0e+3}, damping: {x: 0, y: 20}}
+contacts: [walls]
+friction: {coefficient: 1}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0, phi: 0}
+trial: {time_limit: 4}
+)"},
+      {"side_across_both_edges", R"(
+part: {half_width: 0.7, base_distance: 1, inertia: 1}
+slot: {clearance: 0.001}
+gripper: {stiffness: {x: 0}, anchor: {x: 0, phi: 0.1}, pressing_force: 1}
+base: {stiffness: {y: 2.0e+4}}
+contacts: [edges]
+friction: {coefficient: 0.7}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: -0.0017}
+trial: {time_limit: 0.04}
+)"},
+      {"level_corners_of_a_light_part", R"(
+part: {half_width: 1.4247388816874602, base_distance: 2.532092890261706, inertia: 0.0008317810275255694}
+slot: {clearance: 3.4278114633248386e-07}
+gripper:
+  stiffness: {x: 0.13628815042134146, phi: 0.018763498859793348}
+  damping: {phi: 4.801140470024677e-05}
+  anchor: {x: -0.3226543036829289, phi: 0}
+  pressing_force: 47.68382422902029
+base: {stiffness: {y: 3498025.6999600865}, damping: {y: 4216.054070300954}}
+contacts: [edges, corners]
+friction: {coefficient: 0.8423486241443098}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: -3.5328012240698428, y: 2.5313053121048026, phi: 1.1379725905784362e-08}
+trial: {time_limit: 0.9994335408556435, aligned_depth: 0.05064185780523412}
+)"},
   };
   return all;
 }
@@ -391,6 +439,24 @@ TEST_P(SeveralContacts, do_not_depend_on_the_tolerance) {
     EXPECT_EQ(one.impacts, other.impacts);
   }
   EXPECT_LE(test::distance(one.final_state, other.final_state), 1e-8 + rounding(loose, one.final_state));
+}
+
+/// The same floor holds both corners of a part that stands level: T of each is not known, only their sum. The feet stay
+/// where they were put, while the springs of base and gripper come to balance.
+TEST(LevelCorners, rest_where_the_springs_balance) {
+  for (const test::NamedScene& named : cases()) {
+    if (named.name.rfind("stands_level", 0) != 0) continue;
+    const Scene scene = test::scene_of(named.text);
+    const double k = scene.base.stiffness_y, a = scene.part.half_width, b = scene.part.base_distance;
+    const double force = *scene.gripper.pressing_force;  // its lever as the part tilts is -b phi
+    const Axis phi = make_system(scene).phi;
+    const double tilt = phi.stiffness * phi.anchor / (phi.stiffness + 2.0 * k * a * a - b * force);
+    const double turned = tilt - scene.initial.phi.value_or(tilt);
+    const State end = test::run(scene).final_state;
+    EXPECT_NEAR(end.phi, tilt, 1e-14) << named.name;
+    EXPECT_NEAR(end.x, scene.initial.x - b * turned, 1e-14) << named.name;
+    EXPECT_NEAR(end.y, -force / (2.0 * k + 1.0), 1e-14) << named.name;
+  }
 }
 
 }  // namespace
