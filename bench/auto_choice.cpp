@@ -30,8 +30,8 @@ namespace {
 constexpr std::array<const char*, 3> kSolvers = {"event", "implicit", "auto"};
 constexpr double kAllowedRatio = 1.3;
 
-/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these. A random scene
-/// above the ratio allowed gets as many turns more as any other: the clock has slow spells that outlast a few.
+/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these. A random
+/// scene above the ratio allowed gets as many turns more as any other: the clock has slow spells that outlast a few.
 constexpr double kSecondsPerScene = 0.5, kSecondsPerRandomScene = 0.01;
 constexpr std::size_t kFewestTurns = 5, kMostTurns = 101;
 

@@ -224,6 +224,13 @@ def two_edges(run):
     return max(error, abs(report["final"]["omega"])), ""
 
 
+def standing_level(run):
+    """Statics: tilt, and the feet where they were."""
+    final = run.report()["final"]
+    tilt = 0.01 * 0.03 / (0.01 + 2.0 * 2e3 * 2.0 ** 2 - 1.0)
+    return max(abs(final["phi"] - tilt), abs(final["x"] + tilt), abs(final["y"] + 1.0 / 4001.0)), ""
+
+
 def wedging(share):
     def figure(run):
         least = math.tan(math.atan(0.2 / (2.0 * 0.50001)) + 0.00010996976621283757)
@@ -306,6 +313,7 @@ def cases():
         Case("flat_landing", "", "two impacts", 1e-4, 1e-6, flat_landing),
         Case("flat_landing", "and its mirror image", "the same", 1e-11, 1e-6, flat_landing_mirrored),
         Case("two_edges", "", "e = 0.74408, no turn", 1e-5, 1e-5, two_edges),
+        Case("standing_level", "", "tilt 1.875116e-8, feet at rest", 1e-14, 1e-3, standing_level),
     ]
     for share in (0.99, 1.01):
         word = "wedged" if share > 1.0 else "pressed out"

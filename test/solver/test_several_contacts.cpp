@@ -441,23 +441,5 @@ TEST_P(SeveralContacts, do_not_depend_on_the_tolerance) {
   EXPECT_LE(test::distance(one.final_state, other.final_state), 1e-8 + rounding(loose, one.final_state));
 }
 
-/// The same floor holds both corners of a part that stands level: T of each is not known, only their sum. The feet stay
-/// where they were put, while the springs of base and gripper come to balance.
-TEST(LevelCorners, rest_where_the_springs_balance) {
-  for (const test::NamedScene& named : cases()) {
-    if (named.name.rfind("stands_level", 0) != 0) continue;
-    const Scene scene = test::scene_of(named.text);
-    const double k = scene.base.stiffness_y, a = scene.part.half_width, b = scene.part.base_distance;
-    const double force = *scene.gripper.pressing_force;  // its lever as the part tilts is -b phi
-    const Axis phi = make_system(scene).phi;
-    const double tilt = phi.stiffness * phi.anchor / (phi.stiffness + 2.0 * k * a * a - b * force);
-    const double turned = tilt - scene.initial.phi.value_or(tilt);
-    const State end = test::run(scene).final_state;
-    EXPECT_NEAR(end.phi, tilt, 1e-14) << named.name;
-    EXPECT_NEAR(end.x, scene.initial.x - b * turned, 1e-14) << named.name;
-    EXPECT_NEAR(end.y, -force / (2.0 * k + 1.0), 1e-14) << named.name;
-  }
-}
-
 }  // namespace
 }  // namespace vibratory_alignment
