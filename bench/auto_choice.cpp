@@ -141,7 +141,8 @@ void take_turn(const va::Scene& scene, const char* solver, double tolerance, Mea
 
 using Measurement = std::array<Measured, kSolvers.size()>;
 
-void measure(const va::Scene& scene, double tolerance, double seconds, Measurement& all) {
+/// Adds turns of all solvers.
+void take_turns(const va::Scene& scene, double tolerance, double seconds, Measurement& all) {
   double spent = 0.0;
   for (std::size_t turn = 0; turn < kFewestTurns || (spent < seconds && turn < kMostTurns); ++turn) {
     double best = HUGE_VAL;
@@ -185,7 +186,7 @@ void print_row(const std::string& label, const Measurement& all) {
 /// Prints a row. Returns the time of `auto` over that of the better of the others.
 double report(const std::string& label, const va::Scene& scene, double tolerance) {
   Measurement all;
-  measure(scene, tolerance, kSecondsPerScene, all);
+  take_turns(scene, tolerance, kSecondsPerScene, all);
   print_row(label, all);
   return ratio_of(all);
 }
@@ -214,9 +215,9 @@ void report_random_scenes(double tolerance) {
     scene.solver.step_limit = kRandomStepLimit;
     Measurement measured;
     try {
-      measure(scene, tolerance, kSecondsPerRandomScene, measured);
+      take_turns(scene, tolerance, kSecondsPerRandomScene, measured);
       if (is_above(ratio_of(measured)) && better(measured) < HUGE_VAL)
-        measure(scene, tolerance, kSecondsPerScene, measured);
+        take_turns(scene, tolerance, kSecondsPerScene, measured);
     } catch (const va::SceneError&) {
       continue;  // it has no start
     }

@@ -226,15 +226,10 @@ double EventSolver::crossing_time(double found, const Event& event) const {
 
 /// True when the sticking contacts hold the same motion now but would have to move apart.
 bool EventSolver::must_part() const {
-  bool left = false;
-  for (int k = 0; k < MotionSeries::kHeldPowers; ++k) left = left || series_.not_held(k) > 0.0;
-  if (!left) return false;
+  const double left = series_.not_held_within(segment_.duration);
+  if (!(left > 0.0)) return false;
   const SeriesNoise noise = series_noise(system_, segment_, segment_.duration, kPartAllowance);
-  const double allowed = std::max(noise.held_slip_rate, kLeftAgain * mode_.unheld_slip_rate);
-  double power = 1.0;
-  for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= segment_.duration)
-    if (series_.not_held(k) * power > allowed) return true;
-  return false;
+  return left > std::max(noise.held_slip_rate, kLeftAgain * mode_.unheld_slip_rate);
 }
 
 /// The least of the corrected times of the crossings among coinciding events: the mirror image names them in another

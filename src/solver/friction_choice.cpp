@@ -64,13 +64,6 @@ bool FrictionChoice::has_event(std::size_t site) const {
   return known_[site].normal > 0 || known_[site].hold_plus > 0 || known_[site].hold_minus > 0;
 }
 
-/// The largest V' within h of what sticks that no T takes out.
-double FrictionChoice::unheld_slip_rate(double h) const {
-  double most = 0.0, power = 1.0;
-  for (int k = 0; k < MotionSeries::kHeldPowers; ++k, power *= h) most = std::max(most, series_.not_held(k) * power);
-  return most;
-}
-
 void FrictionChoice::Judgement::contradict(int at_order, double size) {
   if (at_order > order || (at_order == order && size <= excess)) return;
   order = at_order;
@@ -139,7 +132,7 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
     judgement.limits_kept = false;
     return;
   }
-  judgement.mode.unheld_slip_rate = unheld_slip_rate(h);
+  judgement.mode.unheld_slip_rate = series_.not_held_within(h);
   // can those that stick hold together?
   double power = 1.0;
   const double slip_rate = noise.held_slip_rate;

@@ -47,7 +47,6 @@ class FrictionChoice {
   /// How far a friction force may be from a limit that an event says it has reached, relative to the limit.
   double limit_error() const { return unmoved_ ? 1.0 : limit_tolerance_; }
   bool has_event(std::size_t site) const;
-  double unheld_slip_rate(double h) const;
   bool decide_alone(const State& state, const DriveForms& drives, std::size_t site, ContactMode& mode);
   void judge(const State& state, const DriveForms& drives, double allowance, Judgement& judgement);
   void judge_sliding(int loaded, const SeriesNoise& noise, Judgement& judgement) const;

@@ -186,11 +186,10 @@ void MethodChoice::settle_series(double gone, double longest) {
 void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
   if (gone > 0.0) may_pass_over_ = false;
   attempt_ = Attempt::ordinary;
+  ++implicit_steps_;
   const double gain = gone / pace() - kKind[kind_].implicit(effort);
-  if (gone == longest && gain < 0.0)  // cut short by a kink or the limit, it has not lost
-    ++implicit_steps_;
-  else
-    book_implicit(gain);
+  // cut short by a kink or the limit, it has not lost
+  if (!(gone == longest && gain < 0.0)) book_implicit(gain);
 }
 
 void MethodChoice::give_up_implicit(const StepEffort& effort) {
@@ -201,7 +200,6 @@ void MethodChoice::give_up_implicit(const StepEffort& effort) {
 }
 
 void MethodChoice::book_implicit(double gain) {
-  ++implicit_steps_;
   credit_ = std::min(credit_ + gain, kMostCredit);
   rings_ = rings_ && gain < 0.0;
   ++losses_;

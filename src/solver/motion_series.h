@@ -3,6 +3,8 @@
 // force) the motion is analytic, so the series is both the integrator and its dense output.
 #pragma once
 
+#include <algorithm>
+
 #include "mechanics/contact_frame.h"
 #include "mechanics/drive.h"
 #include "mechanics/holding_forces.h"
@@ -65,6 +67,16 @@ class MotionSeries {
   /// What no tangential forces can take out of V' of the sticking contacts, power k < kHeldPowers: contacts that hold
   /// the same motion now and have to move apart. Largest among them; 0 but for rounding where they hold.
   double not_held(int k) const { return not_held_[static_cast<std::size_t>(k)]; }
+
+  /// The most of it within the time h: largest not_held(k) h^k.
+  double not_held_within(double h) const {
+    double most = 0.0, power = 1.0;
+    for (const double left : not_held_) {
+      most = std::max(most, left * power);
+      power *= h;
+    }
+    return most;
+  }
 
   /// Accelerations that V' is made of at the segment's start: sum of their absolute values over all axes and forces.
   double slip_rate_size(const Segment& segment) const;
