@@ -28,8 +28,6 @@ struct ContactState {
   Phase phase = Phase::outside;
   Face face = Face::none;
   Slip slip = Slip::none;
-  double base_deformation = 0.0;  ///< u of a base that recovers (Base::recovery), at the start of the segment
-  double recovery_rate = 0.0;     ///< k/h with which it relaxes
 
   bool touching() const { return phase == Phase::loaded || phase == Phase::unloaded; }
 };

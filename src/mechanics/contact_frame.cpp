@@ -17,6 +17,12 @@ double along_normal(Face face, double cos_phi, double sin_phi, double across, do
   }
 }
 
+/// Derivative of along_normal() by phi.
+double slope_along_normal(Face face, double cos_phi, double sin_phi, double across, double along) {
+  if (face == Face::bottom) return 2.0 * cos_phi * sin_phi * (across - along);
+  return is_part_face(face) ? 2.0 * cos_phi * sin_phi * (along - across) : 0.0;
+}
+
 }  // namespace
 
 ContactFrame contact_frame(const System& system, Face face) {
@@ -51,6 +57,14 @@ double stiffness_of(const System& system, Face face, double cos_phi, double sin_
 
 double damping_of(const System& system, Face face, double cos_phi, double sin_phi) {
   return along_normal(face, cos_phi, sin_phi, system.damping_x, system.damping_y);
+}
+
+double stiffness_slope_of(const System& system, Face face, double cos_phi, double sin_phi) {
+  return slope_along_normal(face, cos_phi, sin_phi, system.stiffness_x, system.stiffness_y);
+}
+
+double damping_slope_of(const System& system, Face face, double cos_phi, double sin_phi) {
+  return slope_along_normal(face, cos_phi, sin_phi, system.damping_x, system.damping_y);
 }
 
 ContactKinematics contact_kinematics(const System& system, const State& state, Site site, Face face) {

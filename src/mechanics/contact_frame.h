@@ -54,6 +54,10 @@ Vec2 site_point(const System& system, const State& state, Site site, double cos_
 double stiffness_of(const System& system, Face face, double cos_phi, double sin_phi);
 double damping_of(const System& system, Face face, double cos_phi, double sin_phi);
 
+/// Their derivatives by phi: 0 but for faces of the part.
+double stiffness_slope_of(const System& system, Face face, double cos_phi, double sin_phi);
+double damping_slope_of(const System& system, Face face, double cos_phi, double sin_phi);
+
 /// A contact at one instant, in world axes.
 struct ContactKinematics {
   Vec2 normal, tangent, lever;  ///< n, t, and r = contact point - C

@@ -67,12 +67,6 @@ Sticking sticking(const ContactKinematics& k, const Directions& g, bool part_fac
   return s;
 }
 
-/// Derivative by phi of stiffness or damping along the normal.
-double turned(Face face, double c, double s, double across, double along) {
-  if (face == Face::bottom) return 2.0 * c * s * (across - along);
-  return is_part_face(face) ? 2.0 * c * s * (along - across) : 0.0;
-}
-
 /// Changes of the accelerations, column by column, less what the T that keep V' = 0 take out of them. `rate`: what else
 /// V' of every contact changes by.
 void hold(const HoldingForces& holding, const std::array<RowVector3d, kSiteCount>& rate, int count, Matrix3d& matrix) {
@@ -108,8 +102,8 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
 
     const double stiffness = stiffness_of(system, contact.face, c, s), damping = damping_of(system, contact.face, c, s);
     RowVector3d n_by_q = -stiffness * g.normal.transpose() + damping * g.depth_rate_by_position;
-    n_by_q[2] += turned(contact.face, c, s, system.stiffness_x, system.stiffness_y) * k.depth +
-                 turned(contact.face, c, s, system.damping_x, system.damping_y) * k.depth_rate;
+    n_by_q[2] += stiffness_slope_of(system, contact.face, c, s) * k.depth +
+                 damping_slope_of(system, contact.face, c, s) * k.depth_rate;
     const RowVector3d n_by_v = -damping * g.normal.transpose();
 
     // T = -f N share, by N and by V

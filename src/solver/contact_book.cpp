@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/base_recovery.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -18,24 +20,21 @@ bool over_floor(const System& system, const ContactBook& book, Site site, const 
   return on_wall(book.contacts[static_cast<std::size_t>(corner)]) || std::abs(point.x) <= system.slot_half_width;
 }
 
-double deformation_after(const Recovery& recovery, double elapsed) {
-  return recovery.deformation > 0.0 ? recovery.deformation * std::exp(-recovery.rate * elapsed) : 0.0;
-}
-
 /// A condition of a region, at a point, with the surface of a base that has been left not back yet.
-double above(const RegionCondition& condition, const Vec2& point, const Recovery& recovery, double elapsed) {
+double above(const RegionCondition& condition, const Vec2& point, const Recovery& recovery) {
   const double value = condition.value(point);
-  return recovery.face == condition.face ? value - deformation_after(recovery, elapsed) : value;
+  return recovery.face == condition.face ? value - recovery.deformation : value;
 }
 
 /// The face that a point has crossed to come in: of the condition that became true last, or, where all of them held
-/// before, of the one that is nearest.
-Face crossed_face(const Region& region, const Vec2& from, const Vec2& to, const Recovery& recovery, double elapsed) {
+/// before, of the one that is nearest. `left`: what the base keeps of its deformation, at both ends.
+Face crossed_face(const Region& region, const Vec2& from, const Vec2& to, const Recovery& left_before,
+                  const Recovery& left_now) {
   double last = -1.0, least = INFINITY;
   Face crossed = Face::none, nearest = Face::none;
   for (std::size_t j = 0; j < static_cast<std::size_t>(region.count); ++j) {
     const RegionCondition& condition = region.conditions[j];
-    const double now = above(condition, to, recovery, elapsed), before = above(condition, from, recovery, 0.0);
+    const double now = above(condition, to, left_now), before = above(condition, from, left_before);
     const double when = before <= 0.0 ? before / (before - now) : -1.0;
     if (when > last) {
       last = when;
@@ -50,16 +49,17 @@ Face crossed_face(const Region& region, const Vec2& from, const Vec2& to, const 
 }
 
 SiteFate fate_outside(const System& system, const SiteTable& table, const ContactBook& book, Site site,
-                      const Vec2& point, double elapsed) {
+                      const PlacedState& placed, const Vec2& point, double elapsed) {
   const auto index = static_cast<std::size_t>(site);
-  const Recovery& recovery = book.recoveries[index];
+  const Recovery& left = book.recoveries[index];
+  const Recovery left_now{deformation_between(system, left, book.placed, placed, elapsed), left.face};
   for (std::size_t half = 0; half < static_cast<std::size_t>(region_count(site)); ++half) {
     const Region& region = table.regions[index][half];
     bool inside = true;
     for (std::size_t j = 0; inside && j < static_cast<std::size_t>(region.count); ++j)
-      inside = above(region.conditions[j], point, recovery, elapsed) > 0.0;
+      inside = above(region.conditions[j], point, left_now) > 0.0;
     if (!inside) continue;
-    const Face face = crossed_face(region, book.points[index], point, recovery, elapsed);
+    const Face face = crossed_face(region, book.points[index], point, left, left_now);
     const bool touches = is_called_for(system, face) && (face != Face::floor || over_floor(system, book, site, point));
     return touches ? SiteFate{Phase::loaded, face, true, EventKind::touch, face}
                    : SiteFate{Phase::free, Face::none, true, EventKind::enter, face};
@@ -89,7 +89,7 @@ SiteFate fate_free(const SiteTable& table, Site site, const Vec2& point) {
 /// The base is left: what it keeps of its deformation.
 Recovery left_base(const System& system, const ContactPoint& contact, Face face) {
   if (!system.recovery || contact.damping == 0.0 || !(contact.depth > 0.0)) return {};
-  return {contact.depth, contact.stiffness / contact.damping, face};
+  return {contact.depth, face};
 }
 
 /// One site at the end of a step; its point and recovery are known.
@@ -116,7 +116,7 @@ void follow_site(const System& system, const ContactState& before, Site site, co
   point = contact_point(system, book.placed, site, fate.face, book.points[index]);
   bool pushes = point.push() > 0.0;
   if (!fate.changed && before.phase == Phase::unloaded && recovery.deformation > 0.0) {
-    // left by the part: it pushes again when the part has caught up, and is left anew if the normal has turned since
+    // left by the part: it pushes again when the part has caught up; between the states it may have been left anew
     const bool caught = point.depth >= recovery.deformation;
     if (caught) recovery = pushes ? Recovery{} : left_base(system, point, fate.face);
     pushes = pushes && caught;
@@ -144,11 +144,11 @@ SiteTable::SiteTable(const System& system) {
   }
 }
 
-SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook& book, Site site, const Vec2& point,
-                 double elapsed) {
+SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook& book, Site site,
+                 const PlacedState& placed, const Vec2& point, double elapsed) {
   const ContactState& contact = book.contacts[static_cast<std::size_t>(site)];
   switch (contact.phase) {
-    case Phase::outside: return fate_outside(system, table, book, site, point, elapsed);
+    case Phase::outside: return fate_outside(system, table, book, site, placed, point, elapsed);
     case Phase::free: return fate_free(table, site, point);
     default: return fate_touching(system, contact.face, point);
   }
@@ -178,9 +178,9 @@ void follow(const System& system, const SiteTable& table, const ContactBook& bef
     after.points[i] = site_point(system, after.placed, site);
     Recovery& recovery = after.recoveries[i];
     recovery = before.recoveries[i];
-    recovery.deformation = deformation_after(recovery, segment.duration);
+    recovery.deformation = deformation_between(system, recovery, before.placed, after.placed, segment.duration);
     if (recovery.deformation < kNoDeformation) recovery = {};
-    const SiteFate fate = fate_of(system, table, before, site, after.points[i], segment.duration);
+    const SiteFate fate = fate_of(system, table, before, site, after.placed, after.points[i], segment.duration);
     follow_site(system, before.contacts[i], site, fate, after, segment);
   }
 }

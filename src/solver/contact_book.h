@@ -40,9 +40,9 @@ struct SiteFate {
   Face event_face = Face::none;  ///< as in Event
 };
 
-/// The fate of a site that is at `point`, `elapsed` after the book's instant.
-SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook& book, Site site, const Vec2& point,
-                 double elapsed);
+/// The fate of a site that is at `point`, in the state `placed`, `elapsed` after the book's instant.
+SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook& book, Site site,
+                 const PlacedState& placed, const Vec2& point, double elapsed);
 
 /// The book of a start: points inside the other body touch its nearest face.
 ContactBook open_book(const System& system, const SiteTable& table, const State& start);

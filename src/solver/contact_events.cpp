@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mechanics/site_rules.h"
+#include "solver/base_recovery.h"
 #include "solver/contact_point.h"
 #include "solver/polynomial_roots.h"
 #include "solver/series_noise.h"
@@ -179,8 +180,9 @@ class Search {
 
   /// Takes what is left of the base's deformation off a depth.
   void subtract_recovery(const Recovery& recovery, Series& g) const {
-    double term = recovery.deformation;
-    for (int k = 0; k <= order_; ++k, term *= -recovery.rate / k) g[k] -= term;
+    if (recovery.deformation == 0.0) return;
+    const Series u = deformation_series(system_, segment_, recovery);
+    for (int k = 0; k <= order_; ++k) g[k] -= u[k];
   }
 
   void guard_limits(Site site, Face face) {

@@ -17,9 +17,9 @@ struct SitePins {
 };
 using Pins = std::array<SitePins, kSiteCount>;
 
-/// A base that recovers: deformation u exp(-rate t) of a site during a segment.
+/// A base that recovers (base_recovery.h): what a site has left behind, at the start of a segment.
 struct Recovery {
-  double deformation = 0.0, rate = 0.0;
+  double deformation = 0.0;  ///< u along the normal of `face`; 0: nothing
   Face face = Face::none;
 };
 using Recoveries = std::array<Recovery, kSiteCount>;

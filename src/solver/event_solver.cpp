@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "mechanics/tilt.h"
+#include "solver/base_recovery.h"
 #include "solver/flight_search.h"
 #include "solver/held_state.h"
 #include "solver/series_noise.h"
@@ -154,13 +156,22 @@ double last_terms(const Segment& s) {
   return std::abs(sum);
 }
 
-/// What is left of the deformations of a base after `duration`.
-void recover(double duration, Recoveries& recoveries) {
+/// What is left of the deformations of a base at the segment's end.
+void recover(const System& system, const Segment& segment, Recoveries& recoveries) {
+  const Tilt tilt = tilt_of(segment.end.phi);
   for (Recovery& recovery : recoveries) {
     if (recovery.deformation == 0.0) continue;
-    recovery.deformation *= std::exp(-recovery.rate * duration);
-    if (recovery.deformation < kNoDeformation) recovery = {};
+    recovery.deformation = deformation_at(system, segment, recovery, segment.duration);
+    const bool at_once = recovers_at_once(system, recovery.face, tilt.cos, tilt.sin);
+    if (at_once || recovery.deformation < kNoDeformation) recovery = {};
   }
+}
+
+/// True when a leap in flight knows what is left of all deformations at its end.
+bool all_recover_evenly(const System& system, const Recoveries& recoveries) {
+  return std::all_of(recoveries.begin(), recoveries.end(), [&](const Recovery& recovery) {
+    return recovery.deformation == 0.0 || recovers_evenly(system, recovery.face);
+  });
 }
 
 bool is_finite(const Segment& s) { return std::isfinite(last_terms(s)); }
@@ -277,7 +288,7 @@ void EventSolver::go_to_end() {
 /// Flies in one segment in closed form, without series, to the next event if that is certain, or as far as nothing can
 /// happen. False when that is too short to be worth it.
 bool EventSolver::leap(double longest, FoundEvents& found) {
-  if (!flight_.exact()) return false;
+  if (!flight_.exact() || (system_.recovery && !all_recover_evenly(system_, mode_.recoveries))) return false;
   const double rate = flight_.rate(segment_.flight_time), series_rate = flight_.series_rate();
   const FlightOutlook outlook =
       look_ahead(system_, flight_, segment_.flight_time, state_, mode_.contacts, mode_.pins, mode_.recoveries,
@@ -486,11 +497,7 @@ const Segment& EventSolver::advance(double limit) {
   const double to_kink = time_to_kink(drives_, now_);
   segment_.start = now_;
   segment_.contacts = mode_.contacts;
-  if (system_.recovery)
-    for (std::size_t i = 0; i < kSiteCount; ++i) {
-      segment_.contacts[i].base_deformation = mode_.recoveries[i].deformation;
-      segment_.contacts[i].recovery_rate = mode_.recoveries[i].rate;
-    }
+  if (system_.recovery) segment_.recoveries = mode_.recoveries;
   const bool contact = any_loaded(mode_.contacts);
   if (contact) state_ = hold_sticking(system_, state_, mode_.contacts);
   segment_.begin = state_;
@@ -538,7 +545,8 @@ const Segment& EventSolver::advance(double limit) {
     if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
     if (system_.recovery)
       for (const Recovery& recovery : mode_.recoveries)
-        if (recovery.deformation > 0.0) step = std::min(step, 1.0 / recovery.rate);
+        if (recovery.deformation > 0.0)
+          step = std::min(step, recovery_step(system_, segment_, recovery, point_tolerance));
     segment_.duration = step;
     if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
     // contacts that have been found to stick here, though they part within the step, hold for a part of it
@@ -589,7 +597,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
   forms_known_ = found.count > 0 || kink;
   mode_changes_ = forms_known_ || system_.recovery;
   if (mode_changes_) next_mode_ = mode_;
-  if (system_.recovery) recover(segment_.duration, next_mode_.recoveries);
+  if (system_.recovery) recover(system_, segment_, next_mode_.recoveries);
   if (forms_known_) {
     set_forms(next_drives_, end, forms_);
     apply_events(system_, segment_, forms_, friction_, found, next_mode_);

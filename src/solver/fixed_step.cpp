@@ -69,10 +69,7 @@ const Segment& FixedStepSolver::advance(double limit) {
   segment_.flight = nullptr;
   segment_.loaded_count = 0;
   segment_.contacts = book().contacts;
-  for (std::size_t i = 0; system_.recovery && i < kSiteCount; ++i) {
-    segment_.contacts[i].base_deformation = book().recoveries[i].deformation;
-    segment_.contacts[i].recovery_rate = book().recoveries[i].rate;
-  }
+  if (system_.recovery) segment_.recoveries = book().recoveries;
   drives_.begin_step(now_);
   if (duration > 0.0) {
     counts_.rhs_evaluations += method_->step({system_, sites_, book(), drives_, duration}, segment_, slip_at_end_);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/tilt.h"
+#include "solver/turning_face.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -37,19 +38,6 @@ void expand_drive(const DriveForm& form, int order, Series& series) {
 }
 
 int point_index(Site site) { return (is_edge(site) ? 0 : 2) + pair_index(site); }
-
-/// k(n) = c0 + c1 cos^2 phi on the faces of the part, power k. Power 0 is the sum of squares that it is: where the axis
-/// that matters is the softer by far, c0 and c1 cos^2 phi would cancel.
-void turning_term(const System& system, Face face, int k, const Segment& segment, double& stiffness, double& damping) {
-  if (k == 0) {
-    stiffness = stiffness_of(system, face, segment.cos_phi[0], segment.sin_phi[0]);
-    damping = damping_of(system, face, segment.cos_phi[0], segment.sin_phi[0]);
-    return;
-  }
-  const double square = product_term(segment.cos_phi, segment.cos_phi, k), sign = face == Face::bottom ? 1.0 : -1.0;
-  stiffness = sign * (system.stiffness_y - system.stiffness_x) * square;
-  damping = sign * (system.damping_y - system.damping_x) * square;
-}
 
 /// k(n) d + h(n) d', power k.
 double turning_push(const Series& stiffness, const Series& damping, const Series& depth, int k) {

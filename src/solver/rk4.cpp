@@ -42,7 +42,7 @@ class RightHandSide {
     for (int n = 0; n < start_.sites.count; ++n) {
       const Site site = start_.sites.sites[static_cast<std::size_t>(n)];
       const Vec2 point = site_point(system_, placed, site);
-      const SiteFate fate = fate_of(system_, start_.sites, start_.book, site, point, t);
+      const SiteFate fate = fate_of(system_, start_.sites, start_.book, site, placed, point, t);
       ContactForces contact;
       if (fate.phase == Phase::loaded && (fate.changed || may_push(system_, start_.book, site)))
         contact = add_contact(placed, site, fate.face, point, sum);

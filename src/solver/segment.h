@@ -8,6 +8,7 @@
 #include "mechanics/contact.h"
 #include "mechanics/instant.h"
 #include "mechanics/state.h"
+#include "solver/contact_mode.h"
 #include "solver/series.h"
 
 namespace vibratory_alignment {
@@ -60,6 +61,7 @@ struct Segment {
   Series cos_phi{}, sin_phi{};
   Series drive_x{}, drive_y{}, drive_phi{};  ///< excitation forces and moment
   ContactStates contacts;                    ///< state of every site during the segment
+  Recoveries recoveries;                     ///< bases that recover (Base::recovery), at its start
   int loaded_count = 0;
   std::array<ContactSeries, kSiteCount> loaded;  ///< the first loaded_count are valid
   State end;                                     ///< the state at its end (closed form in flight)

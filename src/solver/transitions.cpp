@@ -5,6 +5,7 @@
 
 #include "mechanics/site_rules.h"
 #include "mechanics/tilt.h"
+#include "solver/base_recovery.h"
 #include "solver/coincidence.h"
 
 namespace vibratory_alignment {
@@ -57,12 +58,6 @@ bool only_slip(const FoundEvents& events) {
                      [](const Event& event) { return event.kind == EventKind::slip; });
 }
 
-/// A base force this small, relative to that of its spring, is zero.
-constexpr double kPushRounding = 1e-9;
-
-/// Rate of a recovery that takes no time.
-constexpr double kFastestRecovery = 1e12;
-
 /// Slip velocity beyond which a contact slides with the full friction force.
 double sliding_threshold(const System& system) { return system.tanh_saturation * system.regularization; }
 
@@ -105,14 +100,6 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
   friction.decide(state, drives, at_rest, mode, unmoved);
 }
 
-/// True when k d + h d' < 0, by more than rounding.
-bool base_pulls(const System& system, const State& state, Site site, Face face) {
-  const auto [c, s] = tilt_of(state.phi);
-  const ContactKinematics k = contact_kinematics(system, state, site, face);
-  const double spring = stiffness_of(system, face, c, s) * k.depth;
-  return spring + damping_of(system, face, c, s) * k.depth_rate < -kPushRounding * spring;
-}
-
 /// Marks the limit that T of a sticking contact has reached at the segment's end as zero.
 void pin_limit(const System& system, const Segment& segment, Site site, SitePins& pins) {
   int i = 0;
@@ -126,8 +113,13 @@ void pin_limit(const System& system, const Segment& segment, Site site, SitePins
 /// a base that recovers does so at once.
 bool is_undamped(const System& system, const State& state, Face face) {
   const auto [c, s] = tilt_of(state.phi);
-  const double damping = damping_of(system, face, c, s);
-  return damping == 0.0 || (system.recovery && damping * kFastestRecovery < stiffness_of(system, face, c, s));
+  return system.recovery ? recovers_at_once(system, face, c, s) : damping_of(system, face, c, s) == 0.0;
+}
+
+/// What the base keeps of its deformation when the contact at `site` is released.
+Recovery release_recovery(const System& system, const State& state, Site site, Face face) {
+  if (is_undamped(system, state, face)) return {};
+  return {contact_kinematics(system, state, site, face).depth, face};
 }
 
 }  // namespace
@@ -153,13 +145,6 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         mode.recoveries[index] = {};
         break;
       case EventKind::reload:
-        if (system.recovery && base_pulls(system, state, site, contact.face)) {
-          // the normal has turned since the base was left, and k/h with it: the base is left again
-          mode.recoveries[index] = release_recovery(system, state, site, contact.face);
-          pins.normal = 1;
-          events.events[i].kind = EventKind::release;
-          break;
-        }
         contact.phase = Phase::loaded;
         pins.normal = system.recovery ? 0 : 1;
         mode.recoveries[index] = {};
@@ -245,13 +230,6 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
       mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
   set_friction(system, start, drives, {start, start, start}, {}, {}, false, friction, mode);
   return mode;
-}
-
-Recovery release_recovery(const System& system, const State& state, Site site, Face face) {
-  if (is_undamped(system, state, face)) return {};
-  const auto [c, s] = tilt_of(state.phi);
-  return {contact_kinematics(system, state, site, face).depth,
-          stiffness_of(system, face, c, s) / damping_of(system, face, c, s), face};
 }
 
 }  // namespace vibratory_alignment

@@ -22,9 +22,6 @@ void decide_friction_anew(const System& system, const Segment& segment, const Dr
 /// becomes known it may be too large.
 double excess_friction(const System& system, const Segment& segment, double step);
 
-/// What the base keeps of its deformation when the contact at `site` is released.
-Recovery release_recovery(const System& system, const State& state, Site site, Face face);
-
 /// The mode of a start: loaded contacts get their sliding direction, or stick.
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives, FrictionChoice& friction);
 

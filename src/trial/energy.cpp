@@ -4,6 +4,7 @@
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/tilt.h"
+#include "solver/base_recovery.h"
 #include "solver/flight.h"
 #include "solver/solver.h"
 
@@ -68,17 +69,16 @@ void EnergyAccount::book(const Segment& segment) {
     const auto site = static_cast<std::size_t>(contact.site);
     const Face face = segment.contacts[site].face;
     const double end_depth = value_at(contact.depth, segment.order, segment.duration);
-    base_stiffness_[site] = stiffness_of(system_, face, c1, s1);
     at_start[site] = 0.5 * stiffness_of(system_, face, c0, s0) * contact.depth[0] * contact.depth[0];
-    at_end[site] = 0.5 * base_stiffness_[site] * end_depth * end_depth;
+    at_end[site] = 0.5 * stiffness_of(system_, face, c1, s1) * end_depth * end_depth;
   }
   for (std::size_t site = 0; site < kSiteCount; ++site) {
-    const ContactState& contact = segment.contacts[site];
-    if (contact.phase == Phase::loaded || contact.base_deformation == 0.0) continue;
-    // a base that recovers gives its energy to its own damper
-    const double left = contact.base_deformation * std::exp(-contact.recovery_rate * segment.duration);
-    at_start[site] = 0.5 * base_stiffness_[site] * contact.base_deformation * contact.base_deformation;
-    at_end[site] = 0.5 * base_stiffness_[site] * left * left;
+    const Recovery& base = segment.recoveries[site];
+    if (segment.contacts[site].phase == Phase::loaded || base.deformation == 0.0) continue;
+    // a base that recovers gives its energy to its own damper, and what its turning normal brings in (book_powers)
+    const double left = deformation_at(system_, segment, base, segment.duration);
+    at_start[site] = 0.5 * stiffness_of(system_, base.face, c0, s0) * base.deformation * base.deformation;
+    at_end[site] = 0.5 * stiffness_of(system_, base.face, c1, s1) * left * left;
     ledger_.base_loss += at_start[site] - at_end[site];
   }
   double base_total = 0.0;
@@ -103,9 +103,20 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
   ledger_.excitation_work += weight * (drive.x * s.vx + drive.y * s.vy + drive.phi * s.omega);
   ledger_.gripper_loss += weight * (system_.x.damping * s.vx * s.vx + system_.y.damping * s.vy * s.vy +
                                     system_.phi.damping * s.omega * s.omega);
-  if (segment.loaded_count == 0) return;
+  if (segment.loaded_count == 0 && !system_.recovery) return;
   const auto [cos_phi, sin_phi] = tilt_of(s.phi);
   const int order = segment.order;
+  // the normal of a deformed base turns: 1/2 (dk/dphi) phi' d^2
+  const auto turning = [&, c = cos_phi, sine = sin_phi](Face face, double depth) {
+    return weight * 0.5 * stiffness_slope_of(system_, face, c, sine) * s.omega * depth * depth;
+  };
+  if (system_.recovery)
+    for (const Recovery& base : segment.recoveries) {
+      if (base.deformation == 0.0) continue;
+      const double brought_in = turning(base.face, deformation_at(system_, segment, base, t));
+      ledger_.turning += brought_in;
+      ledger_.base_loss += brought_in;
+    }
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
@@ -113,13 +124,7 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
     ledger_.base_loss += weight * damping_of(system_, face, cos_phi, sin_phi) * rate * rate;
     ledger_.friction_loss -=
         weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
-    if (!is_part_face(face) || system_.isotropic) continue;
-    // the normal turns: 1/2 (dk/dphi) phi' d^2, where k = C1 cos^2 + C2 sin^2 on the bottom, the other way round on
-    // sides
-    const double depth = value_at(contact.depth, order, t);
-    const double sign = face == Face::bottom ? 1.0 : -1.0;
-    const double slope = 2.0 * sign * (system_.stiffness_x - system_.stiffness_y) * sin_phi * cos_phi;
-    ledger_.turning += weight * 0.5 * slope * s.omega * depth * depth;
+    if (!system_.isotropic) ledger_.turning += turning(face, value_at(contact.depth, order, t));
   }
 }
 

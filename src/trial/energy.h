@@ -24,8 +24,7 @@ class EnergyAccount {
 
   System system_;
   EnergyLedger ledger_;
-  std::array<double, kSiteCount> base_energy_{};     ///< at the end of the last segment
-  std::array<double, kSiteCount> base_stiffness_{};  ///< k(n) when last loaded
+  std::array<double, kSiteCount> base_energy_{};  ///< at the end of the last segment
   bool started_ = false;
 };
 

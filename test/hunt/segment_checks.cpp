@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../support/touch_point.h"
+#include "solver/base_recovery.h"
 
 namespace vibratory_alignment::hunt {
 namespace {
@@ -158,7 +159,8 @@ class SegmentCheck {
   std::optional<Fault> outside(Site site) const {
     const ContactState& contact = segment_.contacts[static_cast<std::size_t>(site)];
     if (contact.phase != Phase::outside) return {};
-    const double surface = contact.base_deformation * std::exp(-contact.recovery_rate * t_);  // of a base that recovers
+    const Recovery& base = segment_.recoveries[static_cast<std::size_t>(site)];
+    const double surface = base.deformation > 0.0 ? deformation_at(system_, segment_, base, t_) : 0.0;
     const double depth = depth_inside(site) - surface;
     const double at_once = system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0;
     if (depth > depth_noise() + at_once) return fault(Invariant::no_passing, "depth of a point that is outside", depth);

@@ -150,7 +150,8 @@ solver: {name: implicit, tolerance: 1.0e-8})"),
 }
 
 TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {
-  const Scene scene = load_scene_file(std::string(OPEN_FAULTS) + "/base_that_recovers_in_an_ordinary_scene.yaml");
+  Scene scene = test::scene_of(test::plain);
+  scene.excitations[0].amplitude = 1e300;  // the motion is no longer finite
   EXPECT_TRUE(judge(scene, Range::ordinary).breaks(Invariant::ends));
   EXPECT_FALSE(judge(scene, Range::wild).breaks(Invariant::ends));
 }

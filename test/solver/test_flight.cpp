@@ -323,7 +323,7 @@ TEST(Flight, a_base_that_recovers_is_not_landed_on) {
   const auto site = static_cast<std::size_t>(look_at_dip({}).event.site);
   ASSERT_NE(site, 0u);
   Recoveries same{}, other{};
-  same[site] = other[0] = {1e-3, 0.1, Face::bottom};
+  same[site] = other[0] = {1e-3, Face::bottom};
   const FlightOutlook above = look_at_dip(same);
   EXPECT_FALSE(above.lands);
   EXPECT_LT(above.time, kDip);

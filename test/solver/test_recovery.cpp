@@ -10,6 +10,7 @@
 #include "../support/motion_check.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "mechanics/contact_frame.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -211,6 +212,116 @@ trial: {time_limit: 3.14181, aligned_depth: 0}
     });
     EXPECT_NE(result.outcome, Outcome::failed) << result.failure;
     EXPECT_GT(least, -1e-6 * most) << text;
+  }
+}
+
+/// A part that turns with an edge under its bottom, on a base stiffer one way, whose k/h is 5 to 12.
+const char* const turning = R"(
+part: {half_width: 1.0, base_distance: 1.0, inertia: 0.3}
+slot: {clearance: 0.01}
+gripper: {stiffness: {x: 40, phi: 3}, damping: {x: 0.1, y: 0.1, phi: 0.1}, anchor: {x: 0.2, y: 0.5, phi: 0.5}}
+base: {stiffness: {x: 1.2e+3, y: 4.0e+2}, damping: {x: 100, y: 80}, recovery: true}
+contacts: [edges]
+friction: {coefficient: 0.05}
+excitation: {amplitude: 40, frequency: 40}
+initial: {x: 0.2, y: 1.1, phi: 0.5, omega: 1}
+trial: {time_limit: 12.0}
+solver: {name: event, tolerance: 1.0e-11}
+)";
+
+/// Integral of k/h of the bottom's normal over the segment, by Simpson's rule.
+double relaxed(const System& system, const Segment& segment) {
+  constexpr int kPanels = 64;
+  double sum = 0.0;
+  for (int i = 0; i <= kPanels; ++i) {
+    const double phi = state_at(segment, segment.duration * i / kPanels).phi;
+    const double along = std::cos(phi) * std::cos(phi), across = std::sin(phi) * std::sin(phi);
+    const double rate = (system.stiffness_y * along + system.stiffness_x * across) /
+                        (system.damping_y * along + system.damping_x * across);
+    sum += (i == 0 || i == kPanels ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * rate;
+  }
+  return sum * segment.duration / (3.0 * kPanels);
+}
+
+double depth_of(const System& system, const State& state, Site site) {
+  return contact_kinematics(system, state, site, Face::bottom).depth;
+}
+
+// The normal of a face of the part turns after the base has been left, and k/h is that of now: u = u(release)
+// exp(-integral of k/h), and the part meets the base there.
+TEST(Recovery, beside_a_face_that_turns_goes_at_the_rate_of_its_normal) {
+  int met = 0;
+  double most_turned = 0.0;
+  for (const double frequency : {20.0, 30.0, 40.0, 60.0}) {
+    Scene scene = test::scene_of(turning);
+    scene.excitations[0].frequency = frequency;
+    const System system = make_system(scene);
+    std::array<double, kSiteCount> left{}, phi_left{};
+    const TrialResult result = test::run(scene, [&](const Segment& segment) {
+      const double decay = std::exp(-relaxed(system, segment));
+      for (double& u : left) u *= decay;
+      for (int i = 0; i < segment.event_count; ++i) {
+        const Event& event = segment.events[static_cast<std::size_t>(i)];
+        const auto site = static_cast<std::size_t>(event.site);
+        if (event.kind == EventKind::release && segment.contacts[site].face == Face::bottom) {
+          left[site] = depth_of(system, segment.end, event.site);
+          phi_left[site] = segment.end.phi;
+        }
+        const bool touches = event.kind == EventKind::touch && event.face == Face::bottom;
+        if (!(touches || event.kind == EventKind::reload) || left[site] < 1e-6) continue;
+        EXPECT_NEAR(depth_of(system, segment.end, event.site), left[site], 1e-12) << "at " << segment.end_time();
+        most_turned = std::max(most_turned, std::abs(segment.end.phi - phi_left[site]));
+        left[site] = 0.0;
+        ++met;
+      }
+    });
+    EXPECT_LT(result.energy->residual, 1e-9);
+    EXPECT_NEAR(result.energy->release_loss, 0.0, 1e-11);
+  }
+  EXPECT_GE(met, 8);
+  EXPECT_GT(most_turned, 0.02);
+}
+
+// Solvers that only see states at the ends of their steps have the same law.
+TEST(Recovery, beside_a_face_that_turns_is_the_same_with_fixed_steps) {
+  const Scene exact = test::scene_of(turning, {"trial.time_limit=2.2"});
+  Scene stepped = exact;
+  stepped.solver.name = "rk4";
+  stepped.solver.step = 2e-6;
+  EXPECT_LT(test::distance(test::run(stepped).final_state, test::run(exact).final_state), 1e-6);
+}
+
+// k/h falls as the part turns while N falls to zero: a base that went on at the rate of the release would be met at
+// once, and left at once, for ever.
+TEST(Recovery, of_a_base_left_by_a_turning_face_is_not_met_at_once) {
+  const std::string narrow = R"(
+part: {half_width: 0.59, base_distance: 0.3876, inertia: 0.1332}
+slot: {clearance: 0.002}
+gripper: {stiffness: {x: 0, phi: 6.053}, damping: {x: 0.019, y: 0, phi: 0.1031}, anchor: {x: 0, phi: 0}, pressing_force: 0.063}
+base: {stiffness: {x: 1.131e+05, y: 2.937e+04}, damping: {x: 937.5, y: 131.6}, recovery: true}
+contacts: [edges, corners]
+friction: {coefficient: 0.1096}
+excitation: {amplitude: 2.57, frequency: 1, phase: -7.205436616077949}
+initial: {x: -0.3115514847158318, vx: 0.0004, vy: 0.0057, omega: -0.002}
+trial: {time_limit: 6, aligned_depth: 0}
+)";
+  const std::string light = R"(
+part: {half_width: 0.6137290436987827, base_distance: 0.34321643420707454, inertia: 1.6851792338481887e-08}
+slot: {clearance: 7.894103298632899e-08}
+gripper: {stiffness: {x: 1.3383152821867355}, damping: {x: 0.5696981265118617, y: 0.14629996157531677, phi: 2.5727052541468333e-06}, anchor: {x: 0, phi: 0}, pressing_force: 3.169765232410698}
+base: {stiffness: {x: 256120928.1250705, y: 505830088.5825627}, damping: {x: 764.7089359776396, y: 31808.912612125136}, recovery: true}
+contacts: [edges]
+friction: {coefficient: 0.34171849715083535}
+excitation:
+  - {amplitude: 1, frequency: 1252.6508581807009, direction: y, waveform: triangle}
+  - {amplitude: 0.7311906099633312, frequency: 10.459666306263316, direction: x}
+initial: {x: 0.8805174193294362, y: 0.3957540308181461, phi: -2.7463685824023836}
+trial: {time_limit: 0.04012728856501981, aligned_depth: 0.006864328684141491}
+)";
+  for (const std::string& text : {narrow, light}) {
+    const TrialResult result = test::checked_run(test::scene_of(text));
+    EXPECT_NE(result.outcome, Outcome::failed) << result.failure;
+    EXPECT_LT(result.energy->residual, 1e-8);
   }
 }
 

@@ -37,6 +37,8 @@ class MotionCheck {
     const double h = g.duration;
     expect(h >= 0.0, "a segment of negative length", h);
     const State start = g.begin;
+    if (scene_.base.recovery && !begun_) begin_recovery();
+    begun_ = true;
     // a closed form may lose three digits to cancelling terms
     expect(distance(start, state_at(g, 0.0)) <= 1e-13 * size(start), "the start is not that of the motion",
            distance(start, state_at(g, 0.0)));
@@ -355,11 +357,30 @@ class MotionCheck {
   /// The paper's massless base: after the release u' = -(k/h) u.
   struct Recovering {
     Face face = Face::none;
-    double at_start = 0.0, rate = 0.0;  ///< at the start of the present segment
+    double at_start = 0.0;  ///< u at the start of the present segment
   };
 
+  /// u at t of the segment: k/h, along the normal of now, integrated by Simpson's rule.
   double deformation(std::size_t site, double t) const {
-    return recovering_[site].at_start * std::exp(-recovering_[site].rate * t);
+    const Recovering& base = recovering_[site];
+    if (base.at_start == 0.0) return 0.0;
+    constexpr int kPanels = 8;
+    double mean_rate = 0.0;
+    for (int i = 0; i <= kPanels; ++i) {
+      const Point p = point(state_at(*g_, t * i / kPanels), static_cast<int>(site), base.face);
+      const double weight = i == 0 || i == kPanels ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+      mean_rate += weight / (3.0 * kPanels) * (p.damping > 0.0 ? p.stiffness / p.damping : 1e300);
+    }
+    return base.at_start * std::exp(-mean_rate * t);
+  }
+
+  /// A trial may start inside a base that the part does not load.
+  void begin_recovery() {
+    for (std::size_t site = 0; site < kSiteCount; ++site) {
+      const ContactState& contact = g_->contacts[site];
+      if (contact.phase == Phase::unloaded)
+        recovering_[site] = {contact.face, point(g_->begin, static_cast<int>(site), contact.face).depth};
+    }
   }
 
   void follow_recovery(double h) {
@@ -370,8 +391,7 @@ class MotionCheck {
         if (static_cast<std::size_t>(event.site) != site) continue;
         if (event.kind == EventKind::release) {
           const Face face = g_->contacts[site].face;
-          const Point p = point(g_->end, static_cast<int>(site), face);
-          recovering_[site] = {face, p.depth, p.damping > 0.0 ? p.stiffness / p.damping : 1e300};
+          recovering_[site] = {face, point(g_->end, static_cast<int>(site), face).depth};
         } else if (event.kind == EventKind::touch || event.kind == EventKind::reload || event.kind == EventKind::run_off) {
           recovering_[site] = {};
         }
@@ -386,6 +406,7 @@ class MotionCheck {
   double fastest_ = 1.0;  ///< rate of the free motion
   State before_;
   Instant time_;
+  bool begun_ = false;
   std::array<Recovering, kSiteCount> recovering_;
   long touches_ = 0;
   int faults_ = 0;

@@ -1,0 +1,96 @@
+#include "solver/base_recovery.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/turning_face.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// A base that recovers at a rate of this does so at once.
+constexpr double kFastestRecovery = 1e12;
+
+/// k/h at a tilt, and its derivative by phi.
+struct RelaxationRate {
+  double value, slope;
+};
+
+RelaxationRate rate_at(const System& system, Face face, double c, double s) {
+  const double k = stiffness_of(system, face, c, s), h = damping_of(system, face, c, s);
+  const double rate = k / h;
+  return {rate, (stiffness_slope_of(system, face, c, s) - rate * damping_slope_of(system, face, c, s)) / h};
+}
+
+double rate_at_start(const System& system, const Segment& segment, Face face) {
+  const Tilt tilt = tilt_of(segment.begin.phi);
+  return rate_at(system, face, tilt.cos, tilt.sin).value;
+}
+
+/// k/h as a series: h (k/h) = k, power by power.
+Series rate_series(const System& system, const Segment& segment, Face face) {
+  Series stiffness, damping, rate{};
+  for (int k = 0; k <= segment.order; ++k) {
+    turning_term(system, face, k, segment, stiffness[k], damping[k]);
+    double rest = stiffness[k];
+    for (int j = 1; j <= k; ++j) rest -= damping[j] * rate[k - j];
+    rate[k] = rest / damping[0];
+  }
+  return rate;
+}
+
+}  // namespace
+
+bool recovers_at_once(const System& system, Face face, double cos_phi, double sin_phi) {
+  const double damping = damping_of(system, face, cos_phi, sin_phi);
+  return damping == 0.0 || damping * kFastestRecovery < stiffness_of(system, face, cos_phi, sin_phi);
+}
+
+bool recovers_evenly(const System& system, Face face) {
+  return !is_part_face(face) || !system.phi.moves ||
+         system.stiffness_x * system.damping_y == system.stiffness_y * system.damping_x;
+}
+
+Series deformation_series(const System& system, const Segment& segment, const Recovery& recovery) {
+  Series u{};
+  u[0] = recovery.deformation;
+  if (recovers_evenly(system, recovery.face)) {
+    const double rate = rate_at_start(system, segment, recovery.face);
+    for (int k = 0; k < segment.order; ++k) u[k + 1] = -rate * kInverse[k + 1] * u[k];
+  } else {
+    const Series rate = rate_series(system, segment, recovery.face);
+    for (int k = 0; k < segment.order; ++k) u[k + 1] = -kInverse[k + 1] * product_term(rate, u, k);
+  }
+  return u;
+}
+
+double deformation_at(const System& system, const Segment& segment, const Recovery& recovery, double t) {
+  const double relaxed = recovers_evenly(system, recovery.face)
+                             ? rate_at_start(system, segment, recovery.face) * t
+                             : integral(rate_series(system, segment, recovery.face), segment.order, 0.0, t);
+  return recovery.deformation * std::exp(-relaxed);
+}
+
+double recovery_step(const System& system, const Segment& segment, const Recovery& recovery, double tolerance) {
+  double step = 1.0 / rate_at_start(system, segment, recovery.face);
+  if (recovers_evenly(system, recovery.face)) return step;
+  const Series rate = rate_series(system, segment, recovery.face);
+  for (int k = segment.order - 1; k <= segment.order; ++k)
+    if (rate[k] != 0.0) step = std::min(step, std::pow(tolerance / std::abs(rate[k]), kInverse[k + 1]));
+  return step;
+}
+
+double deformation_between(const System& system, const Recovery& recovery, const PlacedState& from,
+                           const PlacedState& to, double elapsed) {
+  if (recovery.deformation == 0.0) return 0.0;
+  const RelaxationRate start = rate_at(system, recovery.face, from.cos_phi, from.sin_phi);
+  double relaxed = start.value * elapsed;
+  if (!recovers_evenly(system, recovery.face)) {
+    const RelaxationRate end = rate_at(system, recovery.face, to.cos_phi, to.sin_phi);
+    const double bend = start.slope * from.state.omega - end.slope * to.state.omega;
+    relaxed = std::max(0.0, elapsed * (0.5 * (start.value + end.value) + elapsed * bend / 12.0));
+  }
+  return recovery.deformation * std::exp(-relaxed);
+}
+
+}  // namespace vibratory_alignment
