@@ -60,23 +60,27 @@ class ProgressLines {
   Clock::time_point begin_ = Clock::now(), next_ = begin_;
 };
 
-Calibration load(const std::string& file) {
+/// What `action` returns. What it refuses is bad usage: the calibration, the facts it names, their studies and scenes.
+template <class Action>
+auto with_refusals(const Action& action) {
   try {
-    return load_calibration(file);
+    return action();
   } catch (const SceneError& refusal) {
-    throw UsageError(std::string("the calibration or its facts are refused:\n") + refusal.what());
+    throw UsageError(std::string("the calibration, its facts or their studies are refused:\n") + refusal.what());
   }
 }
 
 int run_calibrate(const Options& options) {
-  const Calibration calibration = load(options.file);
+  const Calibration calibration = with_refusals([&] { return load_calibration(options.file); });
   std::unique_ptr<OutputPath> report;
   if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);
 
   std::unique_ptr<CalibrationLog> log;
-  if (!options.log.empty())
-    log = std::make_unique<CalibrationLog>(
-        options.log, fingerprint(calibration, find_scene, VIBRATORY_ALIGNMENT_VERSION), options.resume);
+  if (!options.log.empty()) {
+    const auto print =
+        with_refusals([&] { return fingerprint(calibration, find_scene, VIBRATORY_ALIGNMENT_VERSION); });
+    log = std::make_unique<CalibrationLog>(options.log, print, options.resume);
+  }
 
   ProgressLines lines;
   const InterruptGuard interrupt;
@@ -95,7 +99,7 @@ int run_calibrate(const Options& options) {
   }
   CalibrationResult result;
   try {
-    result = run_calibration(calibration, run);
+    result = with_refusals([&] { return run_calibration(calibration, run); });
   } catch (const std::runtime_error&) {
     if (interrupt.signal() == 0) throw;
     std::fprintf(stderr, "align: interrupted; nothing is reported%s\n",

@@ -28,10 +28,6 @@ class SweepCsv {
   SweepCsv(const SweepCsv&) = delete;
   SweepCsv& operator=(const SweepCsv&) = delete;
 
-  /// Rows that the file has; the next is that of trial head.shard.number + rows() * head.shard.count.
-  std::size_t rows() const { return rows_; }
-  /// The file had its name and all rows before.
-  bool was_whole() const { return was_whole_; }
   /// A device or pipe.
   bool is_direct() const { return output_.is_direct(); }
   /// Where the rows are now.

@@ -40,7 +40,6 @@ class Drive {
  public:
   Drive(const Excitation& excitation, const Instant& now);
 
-  const Excitation& excitation() const { return excitation_; }
   Direction direction() const { return excitation_.direction; }
 
   /// theta at `t`, in [0, 2 pi).

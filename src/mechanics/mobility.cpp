@@ -20,7 +20,6 @@ void Mobility::set(const Matrix& matrix, int count, double typical) {
   double largest = 0.0;
   for (int i = 0; i < count; ++i) largest = std::max(largest, matrix[i][i]);
   holds_nothing_ = largest <= kSingular * typical;
-  regular_ = count == 0 || (count == 1 && !holds_nothing_);
   if (count < 2 || holds_nothing_) return;
   Dense dense(count, count);
   for (int i = 0; i < count; ++i)
@@ -29,7 +28,6 @@ void Mobility::set(const Matrix& matrix, int count, double typical) {
   safe_.compute(dense);
   full_.setThreshold(kSingular);
   full_.compute(dense);
-  regular_ = safe_.rank() == count;
 }
 
 Mobility::Vector Mobility::solve(const Decomposition& decomposition, const Vector& rhs) const {
@@ -60,30 +58,6 @@ double Mobility::left_over(int row, const Vector& rhs, const Vector& force) cons
   double left = -rhs[row];
   for (int j = 0; j < count_; ++j) left += matrix_[row][j] * force[j];
   return left;
-}
-
-Mobility::Vector Mobility::spread(const Vector& noise) const {
-  Vector error{};
-  if (count_ == 0 || holds_nothing_) return error;
-  if (count_ == 1) {
-    error[0] = noise[0] / matrix_[0][0];
-    return error;
-  }
-  const Dense inverse = safe_.pseudoInverse();
-  for (int i = 0; i < count_; ++i)
-    for (int j = 0; j < count_; ++j) error[i] += std::abs(inverse(i, j)) * noise[j];
-  return error;
-}
-
-Mobility::Matrix mobility_of(const System& system, const Mobility::Directions& tangents, int count) {
-  Mobility::Matrix matrix{};
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j) {
-      const Load3 &a = tangents[i], &b = tangents[j];
-      matrix[i][j] = a.x * b.x * system.x.inverse_inertia + a.y * b.y * system.y.inverse_inertia +
-                     a.phi * b.phi * system.phi.inverse_inertia;
-    }
-  return matrix;
 }
 
 double typical_mobility(const System& system) {

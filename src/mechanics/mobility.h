@@ -1,4 +1,5 @@
-// The tangential forces that hold sticking contacts (docs/hybrid_step.md "Stick").
+// Tangential forces that hold contacts where only their mobility G is known, the Delassus matrix of the tangents: the
+// friction of a step (box_friction.h). holding_forces.h has the rows that G is made of, and is the more exact one.
 //
 // T_j changes V'_i by G_ij T_j, G_ij = t_i . M^-1 . t_j with t_i = (t_x, t_y, r x t): symmetric, positive semidefinite.
 // Contacts that hold the same motion make G singular, nearly equal levers make it nearly so: then only the sum of
@@ -10,7 +11,6 @@
 #include <Eigen/QR>
 
 #include "mechanics/contact.h"
-#include "mechanics/drive.h"
 #include "mechanics/system.h"
 
 namespace vibratory_alignment {
@@ -19,22 +19,15 @@ class Mobility {
  public:
   using Vector = std::array<double, kSiteCount>;
   using Matrix = std::array<Vector, kSiteCount>;
-  using Directions = std::array<Load3, kSiteCount>;  ///< t_i as (t_x, t_y, r x t)
 
   /// The first `count` rows of G. A G that is rounding beside `typical` holds nothing.
   void set(const Matrix& matrix, int count, double typical);
-
-  /// True when every rhs has exactly one T.
-  bool regular() const { return regular_; }
 
   /// The smallest T with |G T - rhs| <= noise; if none is as exact, the smallest of those that come nearest.
   Vector hold(const Vector& rhs, const Vector& noise) const;
 
   /// G T - rhs of one row.
   double left_over(int row, const Vector& rhs, const Vector& force) const;
-
-  /// Errors of T that errors `noise` of the right-hand side cause, at most, nearly common motions left out.
-  Vector spread(const Vector& noise) const;
 
  private:
   using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSiteCount, kSiteCount>;
@@ -43,15 +36,9 @@ class Mobility {
 
   Matrix matrix_{};
   int count_ = 0;
-  bool regular_ = true, holds_nothing_ = false;
+  bool holds_nothing_ = false;
   Decomposition safe_, full_;  ///< without the nearly common motions, and with all that is not rounding
 };
-
-/// G of the directions t_i.
-Mobility::Matrix mobility_of(const System& system, const Mobility::Directions& tangents, int count);
-
-/// Rounding of V' relative to its size: forces of contacts that hold the same motion are not resolved beyond.
-inline constexpr double kHoldRounding = 1e-14;
 
 /// Mobility of a point of the part about as far from its centre as any.
 double typical_mobility(const System& system);

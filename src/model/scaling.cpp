@@ -133,21 +133,13 @@ void visit_quantities(Scene& scene, const QuantityVisitor& visit) {
 OutputUnits si_output_units(const Scales& scales) {
   OutputUnits units;
   units.time = scales.time_s();
-  units.time_name = "s";
   units.length = scales.length_m();
-  units.length_name = "m";
   units.velocity = scales.velocity_m_per_s();
-  units.velocity_name = "m/s";
   units.angular_velocity = scales.angular_velocity_rad_per_s();
-  units.angular_velocity_name = "rad/s";
   units.force = scales.force_n;
-  units.force_name = "N";
   units.moment = scales.moment_n_m();
-  units.moment_name = "N m";
   units.impulse = scales.impulse_n_s();
-  units.impulse_name = "N s";
   units.energy = scales.energy_j();
-  units.energy_name = "J";
   return units;
 }
 

@@ -42,23 +42,15 @@ void make_dimensionless(Scene& scene);
 using QuantityVisitor = std::function<void(const std::string& key_path, Quantity quantity, double& value)>;
 void visit_quantities(Scene& scene, const QuantityVisitor& visit);
 
-/// Factors from dimensionless numbers to the units in which results are reported, and the names of these units.
+/// Factors from dimensionless numbers to the units in which results are reported.
 struct OutputUnits {
   double time = 1.0, length = 1.0, velocity = 1.0, angular_velocity = 1.0;
   double force = 1.0, moment = 1.0, impulse = 1.0, energy = 1.0;
-  const char* time_name = "";
-  const char* length_name = "";
-  const char* velocity_name = "";
-  const char* angular_velocity_name = "";
-  const char* force_name = "";
-  const char* moment_name = "";
-  const char* impulse_name = "";
-  const char* energy_name = "";
 };
 
 OutputUnits si_output_units(const Scales& scales);
 
-/// The scene's own units: all 1 and without names for a dimensionless scene.
+/// The scene's own units: all 1 for a dimensionless scene.
 OutputUnits output_units(const Scene& scene);
 
 }  // namespace vibratory_alignment

@@ -41,17 +41,9 @@ void set_value(YAML::Node& tree, const std::string& key_path, const YAML::Node& 
 /// What stands at a key path, as a handle to the tree's own node; none where nothing does.
 std::optional<YAML::Node> find_value(const YAML::Node& tree, const std::string& key_path);
 
-/// Checks the tree against the schema (CONTRACTS.md "Scene") and scales it.
+/// Checks the tree against the schema, docs/scene.md, and scales it.
 /// `source` names the file (or parameter namespace) in messages and, without its folder and ending, a scene that has no
 /// name. Throws SceneError with every fault at once.
-///
-/// Keys beyond that page:
-///   trial.inserted_depth    ends the insertion above the floor (needs walls)
-///   solver.step_limit       more steps end the trial as failed
-///   excitation.waveform     sine, square, triangle, or chirp with end_frequency and sweep_time
-///   excitation.moment       [N m] instead of force or displacement, in si scenes for direction phi
-///   solver.accuracy         of the pose at the end, dimensionless; chooses solver.tolerance, and solver.name if absent
-/// solver.tolerance or solver.accuracy goes with event, implicit, auto; solver.step with rk4, semi_implicit, ode.
 Scene load_scene(const YAML::Node& tree, const std::string& source);
 
 /// read_yaml_file + settings + load_scene.

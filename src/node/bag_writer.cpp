@@ -23,6 +23,7 @@
 namespace vibratory_alignment {
 namespace {
 
+const std::string kNode = "/aligner";
 constexpr double kTimeScale = 1.0;    ///< as the settings tell it: a stamp is simulated time
 constexpr double kPictures = 1000.0;  ///< markers are written at most this often in trial.time_limit
 
@@ -42,11 +43,10 @@ void carry_over(const Sample& earlier, Sample& later) {
 
 class BagWriter::Impl {
  public:
-  Impl(const std::string& path, const Scene& scene, const BagOptions& options)
+  Impl(const std::string& path, const Scene& scene)
       : path_(path),
-        node_(options.node_name),
         scene_(scene),
-        messages_(scene, frames_with_prefix(options.tf_prefix)),
+        messages_(scene, frames_with_prefix("")),
         markers_(scene, messages_.frames()),
         picture_interval_(scene.trial.time_limit / kPictures) {
     try {
@@ -72,8 +72,8 @@ class BagWriter::Impl {
     guarded([&] {
       const ros::Time stamp = stamp_at(result.final_time);
       markers_.set_outcome(result.outcome);
-      write_latched(node_ + "/markers", stamp, markers_.draw(stamp));
-      write_latched(node_ + "/result", stamp, messages_.result(result, stamp));
+      write_latched(kNode + "/markers", stamp, markers_.draw(stamp));
+      write_latched(kNode + "/result", stamp, messages_.result(result, stamp));
       bag_->close();
     });
     whole_ = true;
@@ -111,7 +111,7 @@ class BagWriter::Impl {
     (*header)["type"] = ros::message_traits::datatype<Message>();
     (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
     (*header)["message_definition"] = ros::message_traits::definition<Message>();
-    (*header)["callerid"] = node_;
+    (*header)["callerid"] = kNode;
     (*header)["latching"] = "1";
     return header;
   }
@@ -133,27 +133,27 @@ class BagWriter::Impl {
       tf2_msgs::TFMessage fixed;
       fixed.transforms = static_transforms(scene_, messages_.frames(), {}, stamp);
       write_latched("/tf_static", stamp, fixed);
-      write_latched(node_ + "/restarts", stamp, std_msgs::UInt32());
+      write_latched(kNode + "/restarts", stamp, std_msgs::UInt32());
       dynamic_reconfigure::Config settings;
       DriveSettings(scene_, kTimeScale).config().__toMessage__(settings);
-      write_latched(node_ + "/parameter_updates", stamp, settings);
+      write_latched(kNode + "/parameter_updates", stamp, settings);
     }
     last_stamp_ = stamp;
     tf2_msgs::TFMessage moving;
     moving.transforms = {part_transform(sample.state, messages_.units().length, messages_.frames(), stamp)};
     bag_->write("/tf", stamp, moving);
-    bag_->write(node_ + "/state", stamp, messages_.state(sample, stamp));
-    bag_->write(node_ + "/reaction/a1", stamp, messages_.reaction(sample, Site::a1, stamp));
-    bag_->write(node_ + "/reaction/a2", stamp, messages_.reaction(sample, Site::a2, stamp));
-    bag_->write(node_ + "/contacts", stamp, messages_.contacts(sample, stamp));
+    bag_->write(kNode + "/state", stamp, messages_.state(sample, stamp));
+    bag_->write(kNode + "/reaction/a1", stamp, messages_.reaction(sample, Site::a1, stamp));
+    bag_->write(kNode + "/reaction/a2", stamp, messages_.reaction(sample, Site::a2, stamp));
+    bag_->write(kNode + "/contacts", stamp, messages_.contacts(sample, stamp));
     markers_.add(sample);
     if (sample.time >= next_picture_) {
       next_picture_ = sample.time + picture_interval_;
-      write_latched(node_ + "/markers", stamp, markers_.draw(stamp));
+      write_latched(kNode + "/markers", stamp, markers_.draw(stamp));
     }
   }
 
-  std::string path_, node_;
+  std::string path_;
   Scene scene_;
   Messages messages_;
   Markers markers_;
@@ -164,8 +164,7 @@ class BagWriter::Impl {
   bool whole_ = false;
 };
 
-BagWriter::BagWriter(const std::string& path, const Scene& scene, const BagOptions& options)
-    : impl_(std::make_unique<Impl>(path, scene, options)) {}
+BagWriter::BagWriter(const std::string& path, const Scene& scene) : impl_(std::make_unique<Impl>(path, scene)) {}
 
 BagWriter::~BagWriter() = default;
 

@@ -11,21 +11,16 @@
 
 namespace vibratory_alignment {
 
-struct BagOptions {
-  std::string node_name = "/aligner";  ///< what the topics lie under: /aligner/state ...
-  std::string tf_prefix;               ///< as the node's parameter of that name
-};
-
-/// The bag holds /tf, /tf_static, NODE/state, NODE/reaction/a1, NODE/reaction/a2, NODE/contacts, NODE/markers,
-/// NODE/parameter_updates, NODE/restarts and NODE/result. Stamps are kStartTime + simulated seconds (scenes without
-/// scales: units of time), so never 0. The file is created by the constructor and removed by the destructor unless
-/// finish() has made it whole.
+/// The bag holds /tf, /tf_static, and of a node named /aligner: state, reaction/a1, reaction/a2, contacts, markers,
+/// parameter_updates, restarts and result. Stamps are kStartTime + simulated seconds (scenes without scales: units of
+/// time), so never 0. The file is created by the constructor and removed by the destructor unless finish() has made it
+/// whole.
 class BagWriter {
  public:
   static constexpr double kStartTime = 1.0;  ///< stamp of the trial's start [s]
 
   /// Throws std::runtime_error when `path` cannot be written.
-  BagWriter(const std::string& path, const Scene& scene, const BagOptions& options = {});
+  BagWriter(const std::string& path, const Scene& scene);
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;

@@ -44,10 +44,9 @@ std::string number(double value) {
   return text.str();
 }
 
-/// Words about what the node has made of the changes otherwise; empty: they are in force.
+/// Adds words about what the node has made of the changes otherwise; none: they are in force.
 template <class Entries>
-std::string departures(const Entries& asked, const Entries& in_force) {
-  std::string words;
+void tell_departures(const Entries& asked, const Entries& in_force, std::string& words) {
   for (const auto& entry : asked) {
     for (const auto& other : in_force) {
       if (other.name != entry.name || other.value == entry.value) continue;
@@ -55,7 +54,6 @@ std::string departures(const Entries& asked, const Entries& in_force) {
       words += (words.empty() ? "" : "; ") + entry.name + ": " + number(wanted) + " is not possible, it is " + number(got);
     }
   }
-  return words;
 }
 
 }  // namespace
@@ -234,8 +232,10 @@ void AlignerLink::carry_out(const dynamic_reconfigure::Config& changes) {
   message.request.config = changes;
   if (!call("set_parameters", message)) return;
   const dynamic_reconfigure::Config& answer = message.response.config;
-  const std::string words = departures(changes.doubles, answer.doubles) + departures(changes.ints, answer.ints) +
-                            departures(changes.bools, answer.bools);
+  std::string words;
+  tell_departures(changes.doubles, answer.doubles, words);
+  tell_departures(changes.ints, answer.ints, words);
+  tell_departures(changes.bools, answer.bools, words);
   tell(!words.empty(), words);
   on_settings(answer);
 }

@@ -18,7 +18,6 @@ class LayerCoupling {
   Stages correction(const Stages& residual, const std::array<Forces, Collocation::kStages>& forces) const;
 
  private:
-  using StageVector = Eigen::Matrix<double, Collocation::kStages, 1>;
   static constexpr int kMost = Collocation::kStages * kSiteCount;
 
   const System& system_;

@@ -68,8 +68,7 @@ struct CalibrationSearch {
   std::size_t searches = 2;  ///< for each reading, seeds 1 and on
   std::size_t population = 100;
   std::size_t global_evaluations = 1000;
-  Thinning thinning;        ///< of the studies at first
-  std::size_t refined = 2;  ///< searches that go on with the rounds
+  Thinning thinning;  ///< of the studies at first
   std::vector<CalibrationRound> rounds;
   std::size_t local_evaluations = 500;  ///< after the last round, of the searches in it, with its thinning
   std::size_t finalists = 2;            ///< sets that are judged on the whole studies

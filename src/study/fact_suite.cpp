@@ -58,7 +58,7 @@ FactSuite load_fact_suite(const std::string& facts_file, const FindScene& find_s
   for (const std::string& name : studies_of(suite.book)) {
     const Study study = load_study((folder / (name + ".yaml")).lexically_normal().string(), find_scene);
     columns[{name, false}] = TrialTable(study).table();
-    columns[{name, true}] = touch_table(study, true);
+    columns[{name, true}] = touch_columns(study);
     suite.studies[name] = study;
   }
   const std::vector<std::string> faults = faults_of_formulas(suite.book, columns);
@@ -109,7 +109,7 @@ Tables run_fact_studies(const FactSuite& suite, const FactRunOptions& options) {
   for (const TableName& name : wanted) {
     const Study& study = studies.at(name.study);
     if (name.touches) {
-      tables[name] = touch_table(study);
+      tables[name] = touch_table(study, options.go_on);
       count(trial_count(study));
       continue;
     }

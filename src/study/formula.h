@@ -1,4 +1,4 @@
-// Formulas over the columns of a table, as a facts file has them: "aligned && last_impact.a1 < 0.5 * end_time".
+// Formulas over the columns of a table, as a facts file has them: "aligned && last_impact_a1 < 0.5 * end_time".
 // muParser's language: + - * / ^, comparisons, && || and ?:, functions such as abs, min, max, sin, cos.
 #pragma once
 
@@ -17,7 +17,7 @@ class FormulaError : public std::runtime_error {
 };
 
 /// The value of the formula in each row. A comparison with NaN is false, arithmetic with NaN is NaN.
-/// Throws FormulaError when it is not a formula, or asks for a column that there is none.
+/// Throws FormulaError when it is not a formula, or asks for a column that the table does not have.
 std::vector<double> evaluate_formula(const std::string& formula, const Table& table);
 
 /// The columns that the formula asks for, sorted. Throws FormulaError when it is not a formula.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <stdexcept>
 
 #include "mechanics/system.h"
 #include "model/scaling.h"
@@ -119,15 +120,20 @@ std::vector<Touch> touches_of(const Scene& scene) {
   return touches;
 }
 
-Table touch_table(const Study& study, bool columns_only) {
+Table touch_columns(const Study& study) {
   Table table;
   table.names = trial_columns(study);
   for (int spot = 0; spot < kSpotCount; ++spot) table.names.emplace_back(to_string(static_cast<Spot>(spot)));
   for (const char* name : kTouchColumns) table.names.emplace_back(name);
   table.columns.resize(table.names.size());
-  if (columns_only) return table;
+  return table;
+}
+
+Table touch_table(const Study& study, const std::function<bool()>& go_on) {
+  Table table = touch_columns(study);
   TrialScenes scenes(study);
   for (std::size_t index = 0; index < trial_count(study); ++index) {
+    if (go_on && !go_on()) throw std::runtime_error("interrupted");
     std::vector<Touch> touches;
     try {
       touches = touches_of(scenes.at(index));

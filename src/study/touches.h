@@ -1,6 +1,7 @@
 // Every touch of a trial, one by one: what the sums of a TrialRow no longer show.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -32,7 +33,11 @@ std::vector<Touch> touches_of(const Scene& scene);
 
 /// The touches of all trials of a study as a table: index, sample and varied values of the trial; a1, a2, b1, b2 (0 or
 /// 1: where it is); time, contact_time, gap, peak_force, peak_before, normal_impulse, friction_impulse, and the state
-/// x ... omega at its start. Trials whose scene is refused have none. `columns_only`: without the rows.
-Table touch_table(const Study& study, bool columns_only = false);
+/// x ... omega at its start. Trials whose scene is refused have none. `go_on` is asked before every trial; throws
+/// std::runtime_error when it ends the table.
+Table touch_table(const Study& study, const std::function<bool()>& go_on = {});
+
+/// The same table without its rows.
+Table touch_columns(const Study& study);
 
 }  // namespace vibratory_alignment

@@ -80,8 +80,9 @@ vary:
     EXPECT_EQ(a1[row], 1.0);
     EXPECT_EQ(b1[row], 0.0);
   }
-  EXPECT_EQ(touch_table(study, true).names, table.names);
-  EXPECT_EQ(touch_table(study, true).rows(), 0U);
+  EXPECT_EQ(touch_columns(study).names, table.names);
+  EXPECT_EQ(touch_columns(study).rows(), 0U);
+  EXPECT_THROW(touch_table(study, [] { return false; }), std::runtime_error);
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+// docs/scene.md names the keys that the loader knows: all of them, and no others.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "scene_text.h"
+
+namespace vibratory_alignment {
+namespace {
+
+using scene_text::faults;
+using scene_text::least;
+using scene_text::least_si;
+
+std::string page() {
+  std::ifstream file(SCENE_PAGE);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The keys in the first column of the page's table.
+std::set<std::string> documented_keys() {
+  std::set<std::string> keys;
+  std::istringstream lines(page());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("| `", 0) != 0) continue;
+    std::istringstream cell(line.substr(1, line.find('|', 1) - 1));
+    std::string word;
+    while (std::getline(cell, word, '`') && std::getline(cell, word, '`')) keys.insert(word);
+  }
+  return keys;
+}
+
+/// Key paths of all that is no section; of a list, those of its entries.
+void collect(const YAML::Node& node, const std::string& path, std::set<std::string>& keys) {
+  if (node.IsMap())
+    for (const auto& entry : node)
+      collect(entry.second, (path.empty() ? "" : path + ".") + entry.first.as<std::string>(), keys);
+  else if (node.IsSequence() && node.size() > 0 && node[0].IsMap())
+    for (const auto& entry : node) collect(entry, path, keys);
+  else
+    keys.insert(path);
+}
+
+/// Scenes that use every key between them.
+const char* const dimensionless = R"(
+name: all
+units: dimensionless
+scales: {mass: 0.1, stiffness: 4000, force: 8}
+part: {half_width: 0.6, base_distance: 0.9, inertia: 0.2}
+slot: {clearance: 0.09, depth: 1}
+gripper:
+  stiffness: {x: 0.08, y: 1, phi: 60}
+  damping: {x: 0.02, y: 0.05, phi: 0.03}
+  anchor: {x: 0.2, phi: 0}
+  pressing_force: 0.2
+base: {stiffness: {x: 10000, y: 10000}, damping: {x: 20, y: 20}, recovery: true}
+contacts: [edges, corners, walls]
+friction: {coefficient: 0.2, regularization: 0.002}
+weight: 0
+excitation: [{amplitude: 1, frequency: 20, phase: 0, waveform: chirp, end_frequency: 30, sweep_time: 1, direction: y}]
+initial: {x: 0.2, y: 0.895, phi: 0.025, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 20, aligned_depth: 0.02, inserted_depth: 0.9, force_limit: 50}
+solver: {name: event, tolerance: 1.0e-8, step_limit: 1000}
+)";
+const char* const si = R"(
+units: si
+part: {mass: 0.1, half_width: 1.0e-3, base_distance: 2.0e-3}
+slot: {clearance: 1.0e-4}
+gripper: {stiffness: {y: 4000}, anchor: {y: 2.1e-3}}
+base: {stiffness: {y: 4.0e+6}}
+contacts: [edges]
+excitation:
+  - {force: 8, frequency: 100}
+  - {displacement: 1.0e-4, frequency: 50}
+  - {moment: 1.0e-3, frequency: 70, direction: phi}
+trial: {time_limit: 0.1}
+initial: {y: 2.2e-3}
+solver: {accuracy: 1.0e-4}
+)";
+
+TEST(ScenePage, names_every_key_of_the_loader) {
+  std::set<std::string> keys;
+  for (const char* text : {dimensionless, si}) {
+    ASSERT_EQ(faults(text), std::vector<std::string>());
+    collect(YAML::Load(text), "", keys);
+  }
+  for (const char* other : {"excitation", "solver.step"}) keys.insert(other);
+  EXPECT_EQ(documented_keys(), keys);
+}
+
+TEST(ScenePage, names_none_that_the_loader_does_not_know) {
+  const std::set<std::string> keys = documented_keys();
+  ASSERT_GT(keys.size(), 50u);
+  for (const std::string& key : keys) {
+    int unknown = 0;
+    for (const std::string& text : {least, least_si})
+      for (const std::string& fault : faults(text, {key + "=?!"}))
+        unknown += fault.rfind(key + ": ", 0) == 0 && fault.find("unknown key") != std::string::npos;
+    EXPECT_LT(unknown, 2) << key;
+  }
+}
+
+TEST(ScenePage, shows_a_scene_that_can_be_run) {
+  const std::string text = page();
+  const std::size_t start = text.find("```yaml\n");
+  ASSERT_NE(start, std::string::npos);
+  const std::string example = text.substr(start + 8, text.find("```", start + 8) - start - 8);
+  EXPECT_EQ(faults(example), std::vector<std::string>());
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
