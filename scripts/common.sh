@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034  # the groups of packages are used by name
-# Shell functions that scripts/demo and scripts/test share. Sourced by bash scripts that run with `set -euo pipefail`.
+# Shell functions that the scripts share. Sourced by bash scripts that run with `set -euo pipefail`.
 #
 # Two roads lead to ROS 1, and what is found decides: where there is a /opt/ros/noetic it is used, and rosdep installs
 # what package.xml names; elsewhere Debian's own packages of ROS are installed with apt.

@@ -51,13 +51,10 @@ class CsvFile {
 void write_motion(const std::filesystem::path& path, const Study& study) {
   const Scene scene = TrialScenes(study).at(0);
   const OutputUnits units = output_units(scene);
-  double fastest = 0.0;
-  for (const Excitation& excitation : scene.excitations)
-    fastest = std::max({fastest, excitation.frequency, excitation.end_frequency});
   SimulationOptions options;
   options.energy = false;
   Simulation simulation(scene, options);
-  Sampler sampler(simulation, 2.0 * M_PI / fastest / kSamplesPerPeriod, true);
+  Sampler sampler(simulation, 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod, true);
   CsvFile file(path, "t,x,y,phi,vx,vy,omega,n1,n2");
   Sample sample;
   while (sampler.next(sample)) {

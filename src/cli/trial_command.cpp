@@ -171,16 +171,8 @@ void check_outputs(const TrialOptions& options, const std::string& scene_file) {
 
 /// Dimensionless: --sample, or a twentieth of the period of the fastest excitation.
 double sample_interval(const TrialOptions& options, const Scene& scene, double end) {
-  double interval = 0.0;
-  if (options.sample) {
-    interval = *options.sample / output_units(scene).time;
-  } else {
-    double fastest = 0.0;
-    for (const Excitation& excitation : scene.excitations) {
-      fastest = std::max({fastest, excitation.frequency, excitation.end_frequency});
-    }
-    interval = fastest > 0.0 ? 2.0 * M_PI / fastest / kSamplesPerPeriod : end / 1000.0;
-  }
+  const double interval = options.sample ? *options.sample / output_units(scene).time
+                                         : 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod;
   if (end / interval > kMaxSamples) {
     throw UsageError("--sample: the run would have more than 1e9 samples; give a longer interval");
   }

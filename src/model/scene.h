@@ -5,6 +5,7 @@
 // An effect is simulated only if its std::optional is set or its flag is true.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -125,13 +126,20 @@ struct Scene {
   ContactFeatures contacts;
   std::optional<Friction> friction;
   double weight = 0.0;
-  std::vector<Excitation> excitations;
+  std::vector<Excitation> excitations;  ///< a scene that has been loaded has one at least
   InitialState initial;
   TrialSettings trial;
   SolverSettings solver;
 
   /// l, half width of the slot.
   double slot_half_width() const { return part.half_width + slot.clearance; }
+
+  /// Largest frequency of the excitations, radians per unit of time.
+  double fastest_excitation() const {
+    double fastest = 0.0;
+    for (const Excitation& e : excitations) fastest = std::max({fastest, e.frequency, e.end_frequency});
+    return fastest;
+  }
 };
 
 }  // namespace vibratory_alignment

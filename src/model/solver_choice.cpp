@@ -13,9 +13,7 @@ double contact_rate_ratio(const Scene& scene) {
   }
   const double stiffness = std::max(scene.base.stiffness_x, scene.base.stiffness_y);
   const double damping = std::max(scene.base.damping_x, scene.base.damping_y);
-  double excitation = 0.0;
-  for (const Excitation& e : scene.excitations) excitation = std::max({excitation, e.frequency, e.end_frequency});
-  return std::max(std::sqrt(stiffness * mobility), damping * mobility) / excitation;
+  return std::max(std::sqrt(stiffness * mobility), damping * mobility) / scene.fastest_excitation();
 }
 
 const char* solver_for_accuracy(const Scene& scene) {

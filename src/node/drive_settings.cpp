@@ -27,23 +27,18 @@ double chosen(double setting, double shown, double scene_value, double unit) {
 
 DriveSettings::DriveSettings(const Scene& scene, double time_scale)
     : scene_excitations_(scene.excitations), scene_pressing_force_(pressing_force_of(scene)) {
-  const bool has_excitation = !scene_excitations_.empty();
+  const Excitation& first = scene_excitations_.front();
   if (scene.units == Units::si) {
-    const bool turns = has_excitation && scene_excitations_.front().direction == Direction::phi;
+    const bool turns = first.direction == Direction::phi;
     force_unit_ = si_size(Quantity::force, *scene.scales);
     amplitude_unit_ = turns ? si_size(Quantity::moment, *scene.scales) : force_unit_;
     frequency_unit_ = si_size(Quantity::frequency, *scene.scales);
   }
-  config_.enabled = has_excitation;
-  config_.amplitude = config_.frequency = config_.phase = 0.0;
-  config_.waveform = 0;
-  if (has_excitation) {
-    const Excitation& first = scene_excitations_.front();
-    config_.amplitude = first.amplitude * amplitude_unit_;
-    config_.frequency = first.frequency * frequency_unit_;
-    config_.phase = first.phase;
-    config_.waveform = static_cast<int>(first.waveform);
-  }
+  config_.enabled = true;
+  config_.amplitude = first.amplitude * amplitude_unit_;
+  config_.frequency = first.frequency * frequency_unit_;
+  config_.phase = first.phase;
+  config_.waveform = static_cast<int>(first.waveform);
   config_.pressing_force = scene_pressing_force_.value_or(0.0) * force_unit_;
   config_.time_scale = time_scale;
   scene_config_ = config_;
@@ -69,18 +64,7 @@ std::vector<std::string> DriveSettings::change(AlignerConfig& requested) {
   check(&AlignerConfig::pressing_force, "pressing_force");
   check(&AlignerConfig::time_scale, "time_scale");
 
-  if (scene_excitations_.empty()) {
-    const AlignerConfig& old = config_;
-    if (requested.enabled != old.enabled || requested.amplitude != old.amplitude ||
-        requested.frequency != old.frequency || requested.phase != old.phase || requested.waveform != old.waveform) {
-      refusals.emplace_back("the scene has no excitation to change");
-    }
-    requested.enabled = old.enabled;
-    requested.amplitude = old.amplitude;
-    requested.frequency = old.frequency;
-    requested.phase = old.phase;
-    requested.waveform = old.waveform;
-  } else if (requested.waveform == static_cast<int>(Waveform::chirp) && scene_excitations_.front().sweep_time <= 0.0) {
+  if (requested.waveform == static_cast<int>(Waveform::chirp) && scene_excitations_.front().sweep_time <= 0.0) {
     if (requested.waveform != config_.waveform) refusals.emplace_back("waveform: the scene gives no sweep for a chirp");
     requested.waveform = config_.waveform;
   }
@@ -103,7 +87,6 @@ Scene DriveSettings::applied_to(Scene scene) const {
 
 std::vector<Excitation> DriveSettings::excitations() const {
   std::vector<Excitation> excitations = scene_excitations_;
-  if (excitations.empty()) return excitations;
   Excitation& first = excitations.front();
   first.amplitude = chosen(config_.amplitude, scene_config_.amplitude, first.amplitude, amplitude_unit_);
   first.frequency = chosen(config_.frequency, scene_config_.frequency, first.frequency, frequency_unit_);

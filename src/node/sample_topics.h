@@ -53,7 +53,7 @@ class SampleTopics {
   bool queue_transform(const Messages& messages, const ros::Time& stamp) const;
 
   Frames frames_;
-  ros::CallbackQueue joined_;  ///< by whom there has been no sample since
+  ros::CallbackQueue joined_;  ///< subscribers that have come since the last sample
   std::map<std::string, ros::Publisher> publishers_;
   SampleTopic transforms_, state_, reaction_a1_, reaction_a2_, contacts_;
   std::optional<Sample> last_;

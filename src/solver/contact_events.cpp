@@ -19,11 +19,12 @@ constexpr double kCoincidence = 4e-16;
 /// A sliding velocity this small, relative to the speed of the part, may be zero.
 constexpr double kZeroSlip = 1e-13;
 
+/// A sliding velocity this large, relative to the speed of the part, is not zero, nor is a sliding acceleration relative
+/// to that of the part.
+constexpr double kSurelySliding = 1e-8;
+
 /// Rounding of a length relative to those that it is made of.
 constexpr double kLengthRounding = 3e-16;
-
-/// One this large is not, nor is a sliding acceleration relative to that of the part.
-constexpr double kSurelySliding = 1e-8;
 
 /// Times are compared with that of what has been found only up to rounding.
 constexpr double kSurelyLater = 1.0 + 1e-12;

@@ -148,7 +148,7 @@ System saturated(System system, double tolerance) {
   return system;
 }
 
-/// The last coefficients hold what any of the others is not.
+/// Not finite where any coefficient is not: the last ones are made of all others.
 double last_terms(const Segment& s) {
   double sum = s.vx[s.order] + s.vy[s.order] + s.omega[s.order];
   for (int i = 0; i < s.loaded_count; ++i)

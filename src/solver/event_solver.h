@@ -1,5 +1,6 @@
-// Solver `event`: the hybrid step of docs/hybrid_step.md. Flight in closed form, contact by power series of high order
-// under error control, every event located to roundoff as a root of the series.
+// Solvers `event`, `implicit` and `auto`: the hybrid step of docs/hybrid_step.md. Flight in closed form; contact under
+// error control by power series of high order, by implicit steps, or by whichever goes further for its cost; every event
+// located to roundoff as a root of the polynomials.
 #pragma once
 
 #include "solver/flight.h"
@@ -13,6 +14,8 @@ namespace vibratory_alignment {
 
 class EventSolver final : public Solver {
  public:
+  /// `tolerance`: solver.tolerance of docs/scene.md; a segment that would be number `step_limit` + 1 throws
+  /// SolverFailure. Throws std::invalid_argument for more than DriveForms::kMax excitations.
   EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance, long step_limit,
               ContactMethod method = ContactMethod::series);
 

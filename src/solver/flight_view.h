@@ -23,7 +23,7 @@ struct PointMotion {
   }
 };
 
-/// Time in which an event surely does not happen, and the length by which it does not now.
+/// How far an event is: the time within which it surely does not happen, and the length that is free now.
 struct Clearance {
   double time = INFINITY, gap = INFINITY;
 };

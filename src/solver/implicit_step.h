@@ -25,8 +25,8 @@ class ImplicitStep {
 
   /// Takes a step from `start` with the loaded contacts of segment.contacts and fills the segment's series with its
   /// polynomials (powers of the time since its start). Returns its length, 0 when none within `bounds` is found. The
-  /// very first one, where it may not be as short as it likes, is given up when it is worse than a longer one: it
-  /// begins to see a ring of the base that the longer one passes over. Counts forces and rejected steps.
+  /// very first one, if `bounds` limit its length from below, is given up when a shorter length has the larger error:
+  /// it begins to see a ring of the base that the longer one passes over. Counts forces and rejected steps.
   double take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
               SolverCounts& counts);
 

@@ -23,7 +23,7 @@ class MethodChoice {
  public:
   MethodChoice();
 
-  /// The contacts of the next step. Where nothing is known of how far the series go in such, they go.
+  /// The contacts of the next step. The series go while nothing is known of how far they do in such contacts.
   void look_at(const ContactStates& contacts);
 
   /// True when the next step in contact is an implicit one.

@@ -200,7 +200,7 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   if (easily) return iterate(h, false, kEasyIterations, counts);
   if (coupled_steps_ == 0) {
     if (iterate(h, false, kMostIterations, counts)) return true;
-    // in the tanh layer the step is rather too long than the normal turns too far
+    // in the tanh layer the step being too long is the likelier cause than the normal turning too far
     if (start_jacobian_.layer_count > 0 && ++failures_ == 1) return false;
   }
   if (!iterate(h, true, kMostIterations, counts)) return false;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kReferenceTolerance = 1e-13, kSecondTolerance = 1e-11;
 
-/// Settings of the study: decades of the tolerance, halvings by four of the step.
+/// Settings of the study: decades of the tolerance, quarters of the step.
 constexpr double kCoarsestTolerance = 1e-1, kFinestTolerance = 1e-12;
 constexpr int kSteps = 7;
 
@@ -45,9 +45,7 @@ double pose_difference(const State& a, const State& b) {
 std::vector<double> settings_of(const Scene& scene, bool fixed_step, double step_share) {
   std::vector<double> settings;
   if (fixed_step) {
-    double fastest = 1.0;
-    for (const Excitation& e : scene.excitations) fastest = std::max({fastest, e.frequency, e.end_frequency});
-    double step = step_share * kTwoPi / fastest;
+    double step = step_share * kTwoPi / std::max(1.0, scene.fastest_excitation());
     for (int i = 0; i < kSteps; ++i, step /= 4.0) settings.push_back(step);
   } else {
     for (double t = kCoarsestTolerance; t > 0.9 * kFinestTolerance; t /= 10.0) settings.push_back(t);

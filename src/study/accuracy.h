@@ -27,7 +27,7 @@ struct AccuracyRun {
   std::string solver;
   double setting = 0.0;  ///< tolerance, or step of a fixed-step solver
   bool fixed_step = false;
-  std::string failure;       ///< not empty: it failed, or ended otherwise than the reference
+  std::string failure;       ///< not empty: the trial failed, and why
   double pose_error = 0.0;   ///< largest difference of x, y, phi at the end
   double force_error = 0.0;  ///< largest difference of a peak force, relative to the largest peak force
   std::optional<double> duration_error;
@@ -39,9 +39,10 @@ struct AccuracyRun {
 
 struct AccuracyOptions {
   std::vector<std::string> solvers;  ///< names; empty: all that this build has
-  double seconds_per_run = 0.2;      ///< CPU time that the repetitions of a run may take, at least one of them
+  double seconds_per_run = 0.2;      ///< CPU time that the repetitions of a run may take; one is made in any case
   double longest_run = 10.0;         ///< a solver's finer settings are left out after a run longer than this, in s
-  double step_share = 1e-2;          ///< the coarsest fixed step, in periods of the fastest excitation
+  double step_share = 1e-2;          ///< the coarsest fixed step, in periods of the fastest excitation or of 1 rad per unit
+                                     ///< of time, whichever is faster
 };
 
 /// The reference of a scene: `event` at tolerance 1e-13, checked by `implicit` at 1e-11. Throws SceneError,

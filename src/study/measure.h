@@ -65,7 +65,7 @@ struct CurvesMeasure {
   std::optional<std::pair<double, double>> within;  ///< of `along`, both ends included
   PointStatistic point = PointStatistic::median;
   double share = 0.8;  ///< of a point's trials that must have a value, else the point has none
-  /// Share of a curve's points that must have a value, else the curve has no number, and so has what joins it to
+  /// Share of a curve's points that must have a value, else the curve has no number, nor has what joins it to
   /// others. With 0 it is left out instead.
   double filled = 0.5;
   CurveNumber take = CurveNumber::mean;

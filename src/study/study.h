@@ -1,5 +1,5 @@
-// A study: trials of one scene in which some values are varied. Read from a file by study_file.h; what a trial's values
-// are says design.h; run by sweep.h.
+// A study: trials of one scene in which some values are varied. Read from a file by study_file.h; design.h gives the
+// values of each trial; run by sweep.h.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

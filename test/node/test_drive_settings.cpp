@@ -117,20 +117,5 @@ TEST(DriveSettings, ChirpNeedsASweep) {
   EXPECT_EQ(with.excitations()[0].waveform, Waveform::chirp);
 }
 
-TEST(DriveSettings, SceneWithoutExcitationGetsNone) {
-  Scene scene = small_scene::load();
-  scene.excitations.clear();
-  DriveSettings settings(scene, 1.0);
-  AlignerConfig requested = settings.config();
-  EXPECT_FALSE(requested.enabled);
-  requested.enabled = true;
-  requested.amplitude = 1.0;
-  requested.pressing_force = 0.3;
-  EXPECT_EQ(settings.change(requested).size(), 1U);
-  EXPECT_FALSE(requested.enabled);
-  EXPECT_TRUE(settings.excitations().empty());
-  EXPECT_EQ(settings.pressing_force(), 0.3);
-}
-
 }  // namespace
 }  // namespace vibratory_alignment

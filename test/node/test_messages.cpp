@@ -71,8 +71,6 @@ TEST_F(MessagesTest, TellsWhetherTheFirstExcitationActsOnTheTilt) {
   EXPECT_FALSE(Messages(scene, Frames()).state(Sample(), kStamp).excites_tilt);
   scene.excitations.front().direction = Direction::phi;
   EXPECT_TRUE(Messages(scene, Frames()).state(Sample(), kStamp).excites_tilt);
-  scene.excitations.clear();
-  EXPECT_FALSE(Messages(scene, Frames()).state(Sample(), kStamp).excites_tilt);
 }
 
 TEST_F(MessagesTest, PeaksAndImpulsesAreGivenPerSpot) {
