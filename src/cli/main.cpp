@@ -1,5 +1,6 @@
 // `align`, the command line of the package: picks the subcommand, turns exceptions into messages and exit status.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -100,6 +101,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace vibratory_alignment;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, which says what is lost
   try {
     return run(argc, argv);
   } catch (const SceneError& error) {

@@ -122,7 +122,6 @@ Tables run(const FactSuite& suite, FactRunOptions& run_options, const InterruptG
 
 int run_command(const Options& options) {
   const FactSuite suite = load(options);
-  make_folder(options.output);
   FactRunOptions run_options;
   run_options.settings.all = options.settings;
   if (options.quick) run_options.thinning = kQuick;
@@ -132,6 +131,7 @@ int run_command(const Options& options) {
   std::map<std::string, Study> studies;
   try {
     studies = studies_to_run(suite, run_options);
+    make_folder(options.output);
     tables = run(suite, run_options, interrupt);
   } catch (const SceneError& refusal) {
     throw UsageError(refusal.what());

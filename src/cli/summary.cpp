@@ -95,21 +95,38 @@ class Report {
   std::string text_;
 };
 
-std::string outcome_text(const TrialResult& result, const Report& report) {
+/// Words for a trial that was ended before its outcome, by its time limit or by --until.
+std::string ended_early(const TrialResult& result, const Scene& scene, const Report& report) {
+  const std::string what = result.aligned_time ? "not inserted " : "not aligned ";
+  if (result.final_time >= scene.trial.time_limit) return what + "within the time limit";
+  return what + "by " + report.in_line(result.final_time, &ReadingUnits::time) + ", where the trial was to end";
+}
+
+/// Words for an outcome, without the alignment that an earlier part of the trial may have seen.
+std::string outcome_words(const TrialResult& result, const Scene& scene, const Report& report) {
   switch (result.outcome) {
     case Outcome::running: return "still running at " + report.in_line(result.final_time, &ReadingUnits::time);
-    case Outcome::aligned:
-      return "aligned after " + report.in_line(result.aligned_time.value_or(result.final_time), &ReadingUnits::time);
-    case Outcome::inserted:
-      return "inserted" + (result.aligned_time
-                               ? ", aligned after " + report.in_line(*result.aligned_time, &ReadingUnits::time)
-                               : std::string());
+    case Outcome::aligned: return "aligned";
+    case Outcome::inserted: return "inserted";
     case Outcome::jammed: return "jammed: at rest in the slot before it was inserted";
     case Outcome::stalled: return "stalled: the motion has settled without alignment";
-    case Outcome::time_limit: return "not aligned within the time limit";
+    case Outcome::time_limit: return ended_early(result, scene, report);
     case Outcome::failed: return "failed: " + result.failure;
   }
   return to_string(result.outcome);
+}
+
+std::string outcome_text(const TrialResult& result, const Scene& scene, const Report& report) {
+  const std::string words = outcome_words(result, scene, report);
+  if (!result.aligned_time) return words;
+  const std::string after = " after " + report.in_line(*result.aligned_time, &ReadingUnits::time);
+  return result.outcome == Outcome::aligned ? words + after : words + "; aligned" + after;
+}
+
+std::string energy_text(const EnergyLedger& energy) {
+  const bool closes = energy.residual <= kLargestResidual;
+  return format("balance closes to %.2g of what was exchanged", energy.residual) +
+         (closes ? "" : ": the motion is not to be trusted");
 }
 
 std::string mode_text(const TrialResult& result, const Report& report) {
@@ -154,7 +171,7 @@ std::string summary(const TrialResult& result, const Scene& scene) {
                   (scene.units == Units::si
                        ? ""
                        : " (dimensionless" + std::string(scene.scales ? ", in brackets and on the right: SI)" : ")")));
-  report.text("Outcome", outcome_text(result, report));
+  report.text("Outcome", outcome_text(result, scene, report));
   report.text("Mode", mode_text(result, report));
   report.text("First contact", first_contact_text(result.first_contact, report));
   report.blank();
@@ -175,8 +192,7 @@ std::string summary(const TrialResult& result, const Scene& scene) {
                         " was exceeded.");
   }
   report.blank();
-  if (result.energy)
-    report.text("Energy", format("balance closes to %.2g of what was exchanged", result.energy->residual));
+  if (result.energy) report.text("Energy", energy_text(*result.energy));
   report.text("Solver", solver_text(result, report));
   return report.str();
 }

@@ -64,7 +64,10 @@ Study load(const Options& options) {
     const Study study = load_study(file, find_scene);
     if (std::filesystem::equivalent(options.csv, study.scene_source, error))
       throw UsageError("--csv: " + options.csv + ": is the scene; it is not overwritten");
-    return options.settings.empty() ? study : with_settings(study, options.settings);
+    if (options.settings.empty()) return study;
+    const Study changed = with_settings(study, options.settings);
+    refuse_without_scenes(changed);
+    return changed;
   } catch (const SceneError& refusal) {
     throw UsageError(std::string("the study is refused:\n") + refusal.what());
   }

@@ -191,8 +191,9 @@ YAML::Node read_yaml_file(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw SceneError(path, {"there is no such file"});
   if (std::filesystem::is_directory(status)) throw SceneError(path, {"is a directory: name a file in it"});
+  if (!std::filesystem::is_regular_file(status)) throw SceneError(path, {"cannot be read: is not a regular file"});
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(status) || !file) throw SceneError(path, {"cannot be read"});
+  if (!file) throw SceneError(path, {"cannot be read"});
   std::string text(most_bytes + 1, '\0');
   file.read(&text[0], static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw SceneError(path, {"cannot be read"});

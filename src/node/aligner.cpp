@@ -102,13 +102,19 @@ double Aligner::due_in() const {
 }
 
 void Aligner::spin(const std::function<bool()>& interrupted) {
-  run_until(interrupted);
+  interrupted_ = interrupted;
+  run_trials();
   if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), "the node ends");
   if (ros::ok()) kFarewell.sleep();
 }
 
-void Aligner::run_until(const std::function<bool()>& interrupted) {
-  while (ros::ok() && !interrupted()) {
+/// For what may take as long as it takes, but for the end of the node.
+std::function<bool()> Aligner::not_interrupted() const {
+  return [this] { return ros::ok() && !interrupted_(); };
+}
+
+void Aligner::run_trials() {
+  while (not_interrupted()()) {
     if (activity_ == Activity::waiting) wait_for_subscribers();
     if (activity_ == Activity::running) publish_due_samples();
     if (activity_ == Activity::paused || activity_ == Activity::ended) tend_standstill();
@@ -143,7 +149,7 @@ void Aligner::wait_for_subscribers() {
   if (!settled) ROS_WARN("~wait_for_subscribers: not all topics have a subscriber; starting without them");
   set_activity(Activity::paused);
   next_picture_ = {};
-  publish_next();
+  publish_next(not_interrupted());
   if (parameters_.autostart && activity_ == Activity::paused) run();
 }
 
@@ -172,7 +178,7 @@ void Aligner::publish_due_samples() {
   Clock::time_point now = Clock::now();
   Clock::time_point due = pacer_.due(next_due());
   while (activity_ == Activity::running && due <= now && now < turn_end) {
-    publish_next();
+    if (!publish_next([&] { return Clock::now() < turn_end; })) break;
     due = pacer_.due(next_due());
     now = Clock::now();
   }
@@ -183,12 +189,12 @@ void Aligner::publish_due_samples() {
   }
 }
 
-/// False: there was none.
-bool Aligner::publish_next() {
+/// Takes as long as the solver does, but no longer than `go_on` says. False: there was none, or none yet.
+bool Aligner::publish_next(const std::function<bool()>& go_on) {
   const double before = stage_->trial.time();
   Sample sample;
   try {
-    if (!stage_->trial.next(sample)) return false;
+    if (!stage_->trial.next(sample, go_on)) return false;
   } catch (const SceneError& error) {
     // settings changed before the start may leave the scene without one
     const std::string text = std::string("The trial cannot start with these settings: ") + error.what();
@@ -228,6 +234,9 @@ void Aligner::finish() {
     text += ": " + result.failure;
     ROS_ERROR("%s: %s", result.scene.c_str(), text.c_str());
   } else {
+    if (result.aligned_time && result.outcome != Outcome::aligned) {
+      text += ", aligned at " + time_text(*result.aligned_time);
+    }
     text += std::string(", mode ") + to_string(result.mode);
     ROS_INFO("%s: %s", result.scene.c_str(), text.c_str());
   }
@@ -272,9 +281,8 @@ void Aligner::announce_restart() {
   restart_publisher_.publish(message);
 }
 
-std::string Aligner::time_text() const {
+std::string Aligner::time_text(double tau) const {
   std::ostringstream text;
-  const double tau = stage_->trial.time();
   text << "tau = " << tau;
   if (stage_->scene.scales) text << " (" << stage_->seconds(tau) << " s)";
   return text.str();

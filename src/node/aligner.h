@@ -53,7 +53,7 @@ class Aligner {
   enum class Activity { waiting, paused, running, ended };
 
   void advertise();
-  void run_until(const std::function<bool()>& interrupted);
+  void run_trials();
   bool on_start(Trigger::Request&, Trigger::Response& response);
   bool on_pause(Trigger::Request&, Trigger::Response& response);
   bool on_step(Trigger::Request&, Trigger::Response& response);
@@ -73,7 +73,8 @@ class Aligner {
   void run();
   double due_in() const;
   void publish_due_samples();
-  bool publish_next();
+  bool publish_next(const std::function<bool()>& go_on);
+  std::function<bool()> not_interrupted() const;
   void publish(const Sample& sample);
   void publish_markers(const ros::Time& stamp);
   void publish_static_transforms();
@@ -85,7 +86,8 @@ class Aligner {
   double interval_of(const Scene& scene) const;
   double next_due() const { return stage_->seconds(stage_->trial.next_time()); }
   ros::Time next_stamp();
-  std::string time_text() const;
+  std::string time_text() const { return time_text(stage_->trial.time()); }
+  std::string time_text(double tau) const;
 
   ros::NodeHandle handle_;
   NodeParameters parameters_;
@@ -94,6 +96,7 @@ class Aligner {
   const double first_interval_, first_time_unit_;  ///< sample interval and seconds per unit of time of the first scene
   Pacer pacer_;
   PaceMeter pace_meter_;
+  std::function<bool()> interrupted_;  ///< set by spin()
   Activity activity_ = Activity::waiting;
   Clock::time_point waiting_since_, all_subscribed_at_, next_picture_, next_pose_, ended_at_;
   bool all_subscribed_ = false;

@@ -57,7 +57,7 @@ long Aligner::step(long samples) {
   long published = 0;
   while (published < samples && activity_ == Activity::paused) {
     if (published == samples - 1) next_picture_ = {};
-    if (!publish_next()) break;
+    if (!publish_next(not_interrupted())) break;
     ++published;
   }
   return published;
@@ -121,7 +121,7 @@ void Aligner::set_clock_back() {
 void Aligner::show_start() {
   set_activity(Activity::paused);
   next_picture_ = {};
-  publish_next();
+  publish_next(not_interrupted());
 }
 
 /// The service ~load_scene.

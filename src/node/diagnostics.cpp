@@ -6,8 +6,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr std::chrono::seconds kInterval(1);
-constexpr double kLargestResidual = 1e-3;  ///< of the energy ledger; event, the default solver, stays below 1e-6
-constexpr double kLargestLag = 0.1;        ///< [s of wall time]
+constexpr double kLargestLag = 0.1;  ///< [s of wall time]
 
 }  // namespace
 

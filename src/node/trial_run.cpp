@@ -32,17 +32,17 @@ void TrialRun::set_pressing_force(double pressing_force) {
 void TrialRun::apply_changes() {
   if (!excitations_changed_ && !pressing_force_changed_) return;
   if (sample_count_ == 0) return restart();
-  simulation_->cut(sampler_->time());
+  simulation_->cut(std::max(sampler_->time(), simulation_->segment().start.value()));
   if (excitations_changed_) simulation_->set_excitations(scene_.excitations);
   if (pressing_force_changed_) simulation_->set_pressing_force(*scene_.gripper.pressing_force);
   excitations_changed_ = pressing_force_changed_ = false;
 }
 
-bool TrialRun::next(Sample& sample) {
+bool TrialRun::next(Sample& sample, const std::function<bool()>& go_on) {
   if (ended_) return false;
   apply_changes();
-  if (!sampler_->next(sample)) {
-    ended_ = true;
+  if (!sampler_->next(sample, go_on)) {
+    ended_ = sampler_->finished();
     return false;
   }
   ++sample_count_;

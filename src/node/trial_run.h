@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,8 @@
 
 namespace vibratory_alignment {
 
-/// All numbers dimensionless. Changes enter at the instant of the sample that next() gave last.
+/// All numbers dimensionless. Changes enter at the instant of the sample that next() gave last, or as far beyond it as a
+/// call of next() that was not to go on has come.
 class TrialRun {
  public:
   /// Samples lie at n * interval, as `align trial --sample` has them. Throws as Simulation does.
@@ -20,8 +22,9 @@ class TrialRun {
   TrialRun(const TrialRun&) = delete;
   TrialRun& operator=(const TrialRun&) = delete;
 
-  /// The next sample, the start of the trial first. False when the trial has ended.
-  bool next(Sample& sample);
+  /// The next sample, the start of the trial first. False when the trial has ended, or when `go_on`, asked now and then
+  /// (Sampler::next), said no: then it is not there yet, and the next call goes on from where this one was.
+  bool next(Sample& sample, const std::function<bool()>& go_on = {});
 
   /// Instant of the next sample, unless the trial ends before it.
   double next_time() const;

@@ -208,7 +208,8 @@ std::string scene_file(const std::string& scene, const std::string& study, const
   }
 }
 
-/// Throws what is wrong with the first trial if no other has a scene either.
+}  // namespace
+
 void refuse_without_scenes(const Study& study) {
   TrialScenes scenes(study);
   const std::size_t count = trial_count(study);
@@ -223,8 +224,6 @@ void refuse_without_scenes(const Study& study) {
   }
   std::rethrow_exception(refusal);
 }
-
-}  // namespace
 
 Study load_study(const std::string& path, const FindScene& find_scene) {
   TreeReader::Faults faults;

@@ -17,6 +17,9 @@ using FindScene = std::function<std::string(const std::string& name)>;
 /// the middle nor the last trial has a scene that load_scene accepts: a key path or the scene itself is then wrong.
 Study load_study(const std::string& path, const FindScene& find_scene);
 
+/// Throws what is wrong with the scene of the first trial if the middle and the last one have none either.
+void refuse_without_scenes(const Study& study);
+
 /// The study with further settings for every trial, "key.path=value" as apply_setting() takes them. Throws SceneError.
 Study with_settings(const Study& study, const std::vector<std::string>& settings);
 

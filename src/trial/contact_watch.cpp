@@ -75,7 +75,7 @@ void ContactWatch::note(Mode mode, double time) {
 }
 
 Mode ContactWatch::mode() const {
-  if (changes_.empty()) return ever_touched_ ? Mode::nonimpact : Mode::none;
+  if (changes_.empty()) return touching_ ? Mode::nonimpact : Mode::none;
   return changes_.size() == 1 ? changes_.front().mode : Mode::mixed;
 }
 

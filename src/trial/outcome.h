@@ -45,6 +45,10 @@ struct ModeChange {
   Mode mode = Mode::none;
 };
 
+/// Residual of the energy ledger beyond which a motion is not to be trusted. `event`, the default solver, stays below
+/// 1e-6.
+constexpr double kLargestResidual = 1e-3;
+
 /// Energy since the start (MODEL.md "Energy ledger"): all terms >= 0 are losses except `excitation_work` and `turning`.
 struct EnergyLedger {
   double initial = 0.0, final = 0.0;  ///< E

@@ -68,7 +68,7 @@ void Sampler::read(double time, double local_time, Sample& sample) {
   sample.progress = start > clearance ? std::clamp((start - sample.misalignment) / (start - clearance), 0.0, 1.0) : 1.0;
 }
 
-bool Sampler::next(Sample& sample) {
+bool Sampler::next(Sample& sample, const std::function<bool()>& go_on) {
   if (finished_) return false;
   if (!started_) {
     started_ = true;
@@ -77,7 +77,8 @@ bool Sampler::next(Sample& sample) {
       return false;
     }
   }
-  for (;;) {
+  for (long passed = 1;; ++passed) {
+    if (go_on && passed % kSegmentsUnasked == 0 && !go_on()) return false;
     const Segment& segment = simulation_.segment();
     const double target = static_cast<double>(index_) * interval_;
     const double end = segment.end_time();

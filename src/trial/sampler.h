@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "mechanics/contact.h"
 #include "mechanics/state.h"
@@ -40,11 +41,17 @@ struct Sample {
 
 class Sampler {
  public:
+  static constexpr long kSegmentsUnasked = 1000;
+
   /// `interval` > 0. `with_events`: also a sample at every event instant.
   Sampler(Simulation& simulation, double interval, bool with_events = false);
 
-  /// The next sample: t = 0 first, then n * interval, at last the end of the trial. False when there is none left.
-  bool next(Sample& sample);
+  /// The next sample: t = 0 first, then n * interval, at last the end of the trial. False when there is none left, or
+  /// when `go_on`, asked every kSegmentsUnasked segments, said no: then finished() is false, and the next call goes on.
+  bool next(Sample& sample, const std::function<bool()>& go_on = {});
+
+  /// There is no sample left.
+  bool finished() const { return finished_; }
 
   /// Time of the last regular sample that next() gave; changes made through Simulation::cut() belong here.
   double time() const { return time_; }

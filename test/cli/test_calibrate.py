@@ -126,7 +126,7 @@ class CalibrateTest(AlignTestCase):
         self.assertIn("--resume goes on with what the log has", messages)
 
     def test_says_what_is_refused(self):
-        self.assert_refused(["calibrate", self.path("none.yaml")], "the calibration or its facts are refused", "none.yaml")
+        self.assert_refused(["calibrate", self.path("none.yaml")], "the calibration, its facts or their studies are refused", "none.yaml")
 
     def test_refuses_logs_that_are_not_its_own(self):
         log = self.path("log.jsonl")

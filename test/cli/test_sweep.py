@@ -154,6 +154,7 @@ class RefusalTest(SweepTestCase):
         self.assert_refused(["sweep", "nosuch"], "nosuch", "no such file")
         self.assert_refused(["sweep", self.directory], "directory")
         self.assert_refused(["sweep", self.study(), "--set", "initial.x.y=3"], "--set initial.x.y=3")
+        self.assert_refused(["sweep", self.study(), "--set", "foo.bar=1"], "the study is refused", "foo", "unknown key")
 
     def test_faults_of_the_call(self):
         study = self.study()

@@ -114,6 +114,18 @@ class SummaryTest(AlignTestCase):
         self.assertIn("small", lines[0])
         self.assertTrue(lines[1].startswith("Outcome"), process.stdout)
 
+    def test_says_when_a_part_aligned_that_was_not_inserted(self):
+        process = self.align("trial", "insertion", "--until", "4.5")
+        self.assertRegex(process.stdout, r"Outcome +not inserted by 4.5 .*; aligned after 4.06")
+        process = self.align("trial", "fig2", "--until", "1")
+        self.assertRegex(process.stdout, r"Outcome +not aligned by 1 ")
+        self.assertNotIn("aligned after", process.stdout)
+
+    def test_says_when_the_balance_does_not_close(self):
+        process = self.align("trial", "fig2", "--solver", "semi_implicit", "--step", "1")
+        self.assertIn("not to be trusted", process.stdout)
+        self.assertNotIn("not to be trusted", self.align("trial", "fig2").stdout)
+
     def test_has_no_si_column_without_scales(self):
         self.assertNotIn(" mm", self.align("trial", self.scene()).stdout)
 

@@ -63,6 +63,36 @@ TEST(TrialRun, ChangeEntersAtTheLastSample) {
   EXPECT_NEAR(a.state.vy, b.state.vy, kInterval * 1.0);
 }
 
+// A sample that is many segments away is given up for now; what changes then enters where the motion has come to.
+TEST(TrialRun, ChangeEntersWhereASampleWasHeld) {
+  Scene scene = small_scene::load();
+  scene.solver.name = "rk4";
+  scene.solver.step = 1e-5;
+  TrialRun run(scene, 0.1);
+  Sample sample;
+  ASSERT_TRUE(run.next(sample));
+  for (int i = 0; i < 3; ++i) ASSERT_FALSE(run.next(sample, [] { return false; }));
+  EXPECT_FALSE(run.ended());
+  EXPECT_EQ(run.time(), 0.0);
+  std::vector<Excitation> excitations = scene.excitations;
+  excitations[0].amplitude = 0.0;
+  run.set_excitations(excitations);
+  ASSERT_TRUE(run.next(sample));
+  EXPECT_EQ(sample.time, 0.1);
+  // 3000 steps with the excitation, 7000 without
+  Simulation other(scene);
+  while (other.time() < 0.03 - 1e-9) ASSERT_TRUE(other.advance());
+  other.cut(0.03);
+  other.set_excitations(excitations);
+  while (other.segment().end_time() < 0.1 - 1e-12) ASSERT_TRUE(other.advance());
+  EXPECT_NEAR(sample.state.y, other.segment().end.y, 1e-6);
+  TrialRun shaken(scene, 0.1);
+  skip(shaken, 1);
+  Sample undisturbed;
+  ASSERT_TRUE(shaken.next(undisturbed));
+  EXPECT_GT(std::abs(sample.state.y - undisturbed.state.y), 1e-5);
+}
+
 TEST(TrialRun, SameExcitationsAgainChangeNothingButRoundoff) {
   const Scene scene = small_scene::load();
   TrialRun plain(scene, kInterval), changed(scene, kInterval);

@@ -154,6 +154,16 @@ TEST(Mode, pressed_firmly_is_nonimpact) {
   EXPECT_EQ(test::total_impacts(result), 0);
 }
 
+// Contact that has been lost once is not kept, nor lost again and again yet.
+TEST(Mode, a_first_flight_is_none) {
+  const Scene scene = scene_of(test::ball, {"initial.y=0.899", "initial.vy=1", "excitation.amplitude=0"});
+  bool in_flight = false;
+  const TrialResult result = run(scene, [&](const Segment& g) { in_flight = g.loaded_count == 0; }, 0.2);
+  EXPECT_TRUE(in_flight);
+  EXPECT_EQ(test::total_impacts(result), 0);
+  EXPECT_EQ(result.mode, Mode::none);
+}
+
 TEST(Mode, never_touching_is_none) {
   EXPECT_EQ(run(scene_of(test::ball, {"gripper={anchor: {y: 2.0}}", "initial.y=2.0"})).mode, Mode::none);
 }

@@ -70,6 +70,35 @@ TEST(Sampler, ends_on_a_regular_instant_without_repeating_it) {
   EXPECT_TRUE(r.samples.back().is_last);
 }
 
+// Where a sample is many segments away it can be given up for now: nothing is lost, and nothing changes.
+TEST(Sampler, goes_on_where_it_was_held) {
+  Scene scene = scene_of(insertion);
+  scene.trial.time_limit = 4.0;
+  scene.solver.name = "rk4";
+  scene.solver.step = 1e-4;
+  const Record r = record(scene, 0.5);
+  Simulation simulation(scene);
+  Sampler sampler(simulation, 0.5);
+  Sample sample;
+  std::size_t index = 0;
+  int held = 0;
+  while (!sampler.finished()) {
+    const long before = simulation.result().counts.steps;
+    if (!sampler.next(sample, [] { return false; })) {
+      EXPECT_LE(simulation.result().counts.steps - before, Sampler::kSegmentsUnasked);
+      ++held;
+      continue;
+    }
+    ASSERT_LT(index, r.samples.size());
+    EXPECT_EQ(sample.time, r.samples[index].time);
+    EXPECT_EQ(test::distance(sample.state, r.samples[index].state), 0.0);
+    EXPECT_EQ(sample.contacts[0].peak_normal_force, r.samples[index].contacts[0].peak_normal_force);
+    ++index;
+  }
+  EXPECT_EQ(index, r.samples.size());
+  EXPECT_GT(held, 20);
+}
+
 TEST(Sampler, output_rate_changes_nothing) {
   const Scene scene = scene_of(insertion);
   const Record coarse = record(scene, 0.5), fine = record(scene, 1.0 / 128.0), events = record(scene, 0.25, true);
