@@ -129,7 +129,7 @@ int run_accuracy(const Options& options) {
   const std::string file = find_scene(options.scene);
   YAML::Node tree = read_yaml_file(file);
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
-  const Scene scene = load_scene(tree, file);
+  const Scene scene = load_scene(tree, file, options.settings);
   const std::string format = options.plot.empty() ? "" : picture_format("--plot", options.plot);
   std::unique_ptr<OutputPath> csv, picture;
   if (!options.csv.empty()) csv = std::make_unique<OutputPath>("--csv", options.csv);

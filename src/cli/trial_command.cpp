@@ -151,7 +151,7 @@ Scene load(const TrialOptions& options, const std::string& file) {
   if (!options.accuracy.empty()) apply_setting(tree, "solver.accuracy=" + options.accuracy);
   if (!options.tolerance.empty()) apply_setting(tree, "solver.tolerance=" + options.tolerance);
   if (!options.step.empty()) apply_setting(tree, "solver.step=" + options.step);
-  return load_scene(tree, file);
+  return load_scene(tree, file, options.settings);
 }
 
 /// Throws UsageError for a name that would overwrite the scene or another output.

@@ -236,7 +236,7 @@ void apply_setting(YAML::Node& tree, const std::string& assignment) {
 Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings) {
   YAML::Node tree = read_yaml_file(path);
   for (const std::string& setting : settings) apply_setting(tree, setting);
-  return load_scene(tree, path);
+  return load_scene(tree, path, settings);
 }
 
 }  // namespace vibratory_alignment

@@ -362,14 +362,28 @@ void SceneReader::scale() {
   });
 }
 
+/// True when one of two key paths is the other or leads to it.
+bool on_one_way(const std::string& a, const std::string& b) {
+  const std::string &less = a.size() < b.size() ? a : b, &more = a.size() < b.size() ? b : a;
+  return more.compare(0, less.size(), less) == 0 && (more.size() == less.size() || more[less.size()] == '.');
+}
+
+/// Tells in a fault which of the settings has put there what is wrong.
+void name_settings(const std::vector<std::string>& settings, std::string& fault) {
+  const std::string place = fault.substr(0, fault.find(": "));
+  for (const std::string& setting : settings)
+    if (on_one_way(place, setting.substr(0, setting.find('=')))) fault += " (set by " + setting + ")";
+}
+
 }  // namespace
 
 SceneError::SceneError(std::string source, std::vector<std::string> faults)
     : std::runtime_error(message(source, faults)), faults_(std::move(faults)) {}
 
-Scene load_scene(const YAML::Node& tree, const std::string& source) {
+Scene load_scene(const YAML::Node& tree, const std::string& source, const std::vector<std::string>& settings) {
   TreeReader::Faults faults;
   Scene scene = SceneReader(tree, faults).read();
+  for (std::string& fault : faults) name_settings(settings, fault);
   if (!faults.empty()) throw SceneError(source, faults);
   scene.source = source;
   if (scene.name.empty()) scene.name = std::filesystem::path(source).stem().string();

@@ -43,8 +43,9 @@ std::optional<YAML::Node> find_value(const YAML::Node& tree, const std::string& 
 
 /// Checks the tree against the schema, docs/scene.md, and scales it.
 /// `source` names the file (or parameter namespace) in messages and, without its folder and ending, a scene that has no
-/// name. Throws SceneError with every fault at once.
-Scene load_scene(const YAML::Node& tree, const std::string& source);
+/// name. `settings`: what apply_setting() has put into the tree; faults there name them. Throws SceneError with every
+/// fault at once.
+Scene load_scene(const YAML::Node& tree, const std::string& source, const std::vector<std::string>& settings = {});
 
 /// read_yaml_file + settings + load_scene.
 Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings = {});

@@ -72,7 +72,8 @@ class SceneRefusalTest(AlignTestCase):
                 self.refuse_setting(setting, *setting.split("="))
 
     def test_negative_mass(self):
-        self.assert_refused(["trial", "gripper_si", "--set", "part.mass=-0.2"], "part.mass", "-0.2")
+        self.assert_refused(["trial", "gripper_si", "--set", "part.mass=-0.2"], "part.mass", "-0.2", "set by part.mass=-0.2")
+        self.assert_refused(["trial", "fig2", "--set", "foo.bar=1"], "foo", "unknown key", "(set by foo.bar=1)")
 
     def test_missing_sections(self):
         for key in ("part", "slot", "base", "contacts", "excitation", "trial"):
