@@ -11,6 +11,9 @@
 
 namespace vibratory_alignment {
 
+/// A deformation that is nothing (relative to lengths of order one).
+inline constexpr double kNoDeformation = 1e-18;
+
 /// True for a base that recovers at once under `face` at the tilt given: undamped, or faster than anything to be seen.
 bool recovers_at_once(const System& system, Face face, double cos_phi, double sin_phi);
 

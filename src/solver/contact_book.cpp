@@ -7,9 +7,6 @@
 namespace vibratory_alignment {
 namespace {
 
-/// A base deformation that is nothing (relative to lengths of order one).
-constexpr double kNoDeformation = 1e-18;
-
 bool on_wall(const ContactState& contact) {
   return contact.touching() && (contact.face == Face::right_wall || contact.face == Face::left_wall);
 }

@@ -77,9 +77,6 @@ constexpr int kMostShorter = 6;
 /// Implicit steps to events no later than this, relative to the time, are no progress.
 constexpr double kHardly = 1e-15;
 
-/// A base deformation that is nothing (relative to lengths of order one).
-constexpr double kNoDeformation = 1e-18;
-
 /// Error of an implicit step as a share of the tolerance asked for.
 constexpr double kImplicitShare = 1e-2;
 

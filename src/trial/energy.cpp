@@ -103,14 +103,15 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
   ledger_.excitation_work += weight * (drive.x * s.vx + drive.y * s.vy + drive.phi * s.omega);
   ledger_.gripper_loss += weight * (system_.x.damping * s.vx * s.vx + system_.y.damping * s.vy * s.vy +
                                     system_.phi.damping * s.omega * s.omega);
-  if (segment.loaded_count == 0 && !system_.recovery) return;
-  const auto [cos_phi, sin_phi] = tilt_of(s.phi);
+  const bool base_turns = system_.recovery && !system_.isotropic;
+  if (segment.loaded_count == 0 && !base_turns) return;
+  const Tilt tilt = tilt_of(s.phi);
   const int order = segment.order;
   // the normal of a deformed base turns: 1/2 (dk/dphi) phi' d^2
-  const auto turning = [&, c = cos_phi, sine = sin_phi](Face face, double depth) {
-    return weight * 0.5 * stiffness_slope_of(system_, face, c, sine) * s.omega * depth * depth;
+  const auto turning = [&](Face face, double depth) {
+    return weight * 0.5 * stiffness_slope_of(system_, face, tilt.cos, tilt.sin) * s.omega * depth * depth;
   };
-  if (system_.recovery)
+  if (base_turns)
     for (const Recovery& base : segment.recoveries) {
       if (base.deformation == 0.0) continue;
       const double brought_in = turning(base.face, deformation_at(system_, segment, base, t));
@@ -121,7 +122,7 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
     const ContactSeries& contact = segment.loaded[i];
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
     const double rate = slope_at(contact.depth, order, t);
-    ledger_.base_loss += weight * damping_of(system_, face, cos_phi, sin_phi) * rate * rate;
+    ledger_.base_loss += weight * damping_of(system_, face, tilt.cos, tilt.sin) * rate * rate;
     ledger_.friction_loss -=
         weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
     if (!system_.isotropic) ledger_.turning += turning(face, value_at(contact.depth, order, t));

@@ -13,6 +13,7 @@ namespace vibratory_alignment {
 namespace {
 
 using scene_text::faults;
+using scene_text::full;
 using scene_text::least;
 using scene_text::least_si;
 using scene_text::TemporaryFile;
@@ -31,28 +32,6 @@ void expect_one_fault(const std::string& text, const Mistake& mistake) {
   EXPECT_EQ(found[0].find(std::string(mistake.fault_start) + ": "), 0u) << found[0];
   EXPECT_NE(found[0].find(mistake.fault_content), std::string::npos) << found[0];
 }
-
-/// A scene that has every section and key of a dimensionless scene.
-const std::string full = R"(
-name: full
-units: dimensionless
-scales: {mass: 0.1, stiffness: 4000.0, force: 8.0}
-part: {half_width: 0.6, base_distance: 0.9, inertia: 0.2}
-slot: {clearance: 0.09, depth: 1.0}
-gripper:
-  stiffness: {x: 0.08, y: 1, phi: 60.0}
-  damping: {x: 0.02, y: 0.05, phi: 0.03}
-  anchor: {x: 0.2, phi: 0.0}
-  pressing_force: 0.2
-base: {stiffness: {x: 1.0e4, y: 1.0e4}, damping: {x: 20.0, y: 20.0}, recovery: false}
-contacts: [edges, corners, walls]
-friction: {coefficient: 0.2, regularization: 2.0e-3}
-weight: 0.0
-excitation: {amplitude: 1.0, frequency: 20.0, phase: 0.0, waveform: sine, direction: y}
-initial: {x: 0.2, y: 0.895, phi: 0.025, vx: 0, vy: 0, omega: 0}
-trial: {time_limit: 20.0, aligned_depth: 0.02, inserted_depth: 0.9, force_limit: 50.0}
-solver: {name: event, tolerance: 1.0e-8, step_limit: 1000}
-)";
 
 TEST(Refusals, TheScenesOfThisTestAreGoodOnes) {
   EXPECT_EQ(faults(full), std::vector<std::string>());
