@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Core>
+#include <Eigen/QR>
 
 #include "mechanics/contact.h"
 #include "mechanics/system.h"
@@ -39,6 +39,9 @@ class HoldingForces {
 
   /// True when every rhs has exactly one T.
   bool regular() const { return regular_; }
+
+  /// True when it depends on the noise given which contacts are told apart.
+  bool tells_apart_by_noise() const { return count_ > 1 && safe_.rank != full_.rank; }
 
   /// True when rounding of the forces moves the part by more than rounding of the motion: V' is then to be read off
   /// the corrected motion and taken out once more.
@@ -78,7 +81,16 @@ class HoldingForces {
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kSiteCount> inverse;
   };
   using Inverse = decltype(Factor::inverse);
-  Factor factorize(double singular) const;
+  using Plane = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kSiteCount, 3>;
+  /// J = Q R, its columns in this order of the axes.
+  struct Decomposition {
+    Eigen::ColPivHouseholderQR<Plane> qr;
+    std::array<int, 3> axes{0, 1, 2};
+
+    int rank(double singular);
+  };
+  Decomposition decompose() const;
+  Factor factorize(Decomposition& of, double singular) const;
   void share_alike(double singular, Factor& factor) const;
   Answer hold_with(const Factor& factor, const Vector& rhs) const;
   Answer hold_motion_with(const Factor& factor, const Answer& motion, const Vector& own_rates) const;
