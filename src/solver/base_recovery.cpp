@@ -64,12 +64,19 @@ Series deformation_series(const System& system, const Segment& segment, const Re
   return u;
 }
 
-double deformation_at(const System& system, const Segment& segment, const Recovery& recovery, double t) {
-  const double relaxed = recovers_evenly(system, recovery.face)
-                             ? rate_at_start(system, segment, recovery.face) * t
-                             : integral(rate_series(system, segment, recovery.face), segment.order, 0.0, t);
-  return recovery.deformation * std::exp(-relaxed);
+Relaxation::Relaxation(const System& system, const Segment& segment, const Recovery& recovery)
+    : start_(recovery.deformation) {
+  if (recovers_evenly(system, recovery.face)) {
+    order_ = 1;
+    exponent_[1] = rate_at_start(system, segment, recovery.face);
+  } else {
+    order_ = segment.order + 1;
+    const Series rate = rate_series(system, segment, recovery.face);
+    for (int k = 1; k <= order_; ++k) exponent_[k] = rate[k - 1] * kInverse[k];
+  }
 }
+
+double Relaxation::deformation_at(double t) const { return start_ * std::exp(-value_at(exponent_, order_, t)); }
 
 double recovery_step(const System& system, const Segment& segment, const Recovery& recovery, double tolerance) {
   double step = 1.0 / rate_at_start(system, segment, recovery.face);

@@ -23,9 +23,19 @@ bool recovers_evenly(const System& system, Face face);
 /// The series of u from the segment's start on, to the order of the segment, whose cos and sin of phi are known.
 Series deformation_series(const System& system, const Segment& segment, const Recovery& recovery);
 
-/// u at the time t of a segment that starts with `recovery`. The rate of a base that does not recover evenly is taken
-/// from the segment's series, which a leap in flight does not have.
-double deformation_at(const System& system, const Segment& segment, const Recovery& recovery, double t);
+/// How u goes on in a segment that starts with `recovery`: u(t) = u(0) exp(-integral of k/h from 0 to t). The rate of a
+/// base that does not recover evenly is taken from the segment's series, which a leap in flight does not have.
+class Relaxation {
+ public:
+  Relaxation(const System& system, const Segment& segment, const Recovery& recovery);
+
+  double deformation_at(double t) const;
+
+ private:
+  double start_;
+  int order_;
+  Series exponent_{};  ///< the integral of k/h
+};
 
 /// How far deformation_series() holds: no farther than h/k, and than the series of k/h does to the relative error given.
 double recovery_step(const System& system, const Segment& segment, const Recovery& recovery, double tolerance);

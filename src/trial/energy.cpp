@@ -4,7 +4,6 @@
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/tilt.h"
-#include "solver/base_recovery.h"
 #include "solver/flight.h"
 #include "solver/solver.h"
 
@@ -51,13 +50,14 @@ void EnergyAccount::book(const Segment& segment) {
   started_ = true;
   if (first) ledger_.initial = mechanical(segment.begin);
 
+  const auto relaxations = relaxations_in(segment);
   const double rate = segment.flight ? segment.flight->rate(segment.flight_time) : 0.0;
   const int panels = 1 + static_cast<int>(segment.duration * rate / kPanel);
   const double half = 0.5 * segment.duration / panels;
   for (int panel = 0; panel < panels; ++panel)
     for (int i = 0; i < 12; ++i) {
       const double node = i < 6 ? -kNodes[i] : kNodes[i - 6];
-      book_powers(segment, half * (2 * panel + 1 + node), half * kWeights[i % 6]);
+      book_powers(segment, relaxations, half * (2 * panel + 1 + node), half * kWeights[i % 6]);
     }
 
   // base springs: what jumps between two segments has been dropped (or brought back)
@@ -73,10 +73,10 @@ void EnergyAccount::book(const Segment& segment) {
     at_end[site] = 0.5 * stiffness_of(system_, face, c1, s1) * end_depth * end_depth;
   }
   for (std::size_t site = 0; site < kSiteCount; ++site) {
-    const Recovery& base = segment.recoveries[site];
-    if (segment.contacts[site].phase == Phase::loaded || base.deformation == 0.0) continue;
+    if (!relaxations[site]) continue;
     // a base that recovers gives its energy to its own damper, and what its turning normal brings in (book_powers)
-    const double left = deformation_at(system_, segment, base, segment.duration);
+    const Recovery& base = segment.recoveries[site];
+    const double left = relaxations[site]->deformation_at(segment.duration);
     at_start[site] = 0.5 * stiffness_of(system_, base.face, c0, s0) * base.deformation * base.deformation;
     at_end[site] = 0.5 * stiffness_of(system_, base.face, c1, s1) * left * left;
     ledger_.base_loss += at_start[site] - at_end[site];
@@ -96,8 +96,19 @@ void EnergyAccount::book(const Segment& segment) {
   if (!std::isfinite(sum)) throw SolverFailure("the energy is no longer finite");
 }
 
+/// How the bases go on that recover in the segment.
+EnergyAccount::Relaxations EnergyAccount::relaxations_in(const Segment& segment) const {
+  Relaxations relaxations;
+  for (std::size_t site = 0; site < kSiteCount; ++site) {
+    const Recovery& base = segment.recoveries[site];
+    if (segment.contacts[site].phase != Phase::loaded && base.deformation != 0.0)
+      relaxations[site].emplace(system_, segment, base);
+  }
+  return relaxations;
+}
+
 /// All powers at time t of the segment, times `weight`.
-void EnergyAccount::book_powers(const Segment& segment, double t, double weight) {
+void EnergyAccount::book_powers(const Segment& segment, const Relaxations& relaxations, double t, double weight) {
   const State s = state_at(segment, t);
   const Load3 drive = drive_at(segment, t);
   ledger_.excitation_work += weight * (drive.x * s.vx + drive.y * s.vy + drive.phi * s.omega);
@@ -112,9 +123,9 @@ void EnergyAccount::book_powers(const Segment& segment, double t, double weight)
     return weight * 0.5 * stiffness_slope_of(system_, face, tilt.cos, tilt.sin) * s.omega * depth * depth;
   };
   if (base_turns)
-    for (const Recovery& base : segment.recoveries) {
-      if (base.deformation == 0.0) continue;
-      const double brought_in = turning(base.face, deformation_at(system_, segment, base, t));
+    for (std::size_t site = 0; site < kSiteCount; ++site) {
+      if (!relaxations[site]) continue;
+      const double brought_in = turning(segment.recoveries[site].face, relaxations[site]->deformation_at(t));
       ledger_.turning += brought_in;
       ledger_.base_loss += brought_in;
     }

@@ -2,7 +2,11 @@
 // own that does not use the equations of motion, so that its residual judges them.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "mechanics/system.h"
+#include "solver/base_recovery.h"
 #include "solver/segment.h"
 #include "trial/outcome.h"
 
@@ -19,8 +23,11 @@ class EnergyAccount {
   EnergyLedger ledger() const;
 
  private:
+  using Relaxations = std::array<std::optional<Relaxation>, kSiteCount>;
+
   double mechanical(const State& state) const;
-  void book_powers(const Segment& segment, double t, double weight);
+  Relaxations relaxations_in(const Segment& segment) const;
+  void book_powers(const Segment& segment, const Relaxations& relaxations, double t, double weight);
 
   System system_;
   EnergyLedger ledger_;

@@ -71,9 +71,10 @@ TEST(BaseRecovery, of_a_segment_is_that_of_the_closed_form) {
   EXPECT_GT(step, 0.01);
   EXPECT_LE(step, 1.0 / 5.0);
   const Series u = deformation_series(system, segment, left);
+  const Relaxation relaxation(system, segment, left);
   for (const double share : {0.0, 0.3, 0.7, 1.0}) {
     const double t = share * step, exact = kLeft * std::exp(-relaxed(t));
-    EXPECT_NEAR(deformation_at(system, segment, left, t), exact, 1e-14 * kLeft) << share;
+    EXPECT_NEAR(relaxation.deformation_at(t), exact, 1e-14 * kLeft) << share;
     EXPECT_NEAR(value_at(u, segment.order, t), exact, 1e-13 * kLeft) << share;
   }
 }
@@ -88,7 +89,7 @@ TEST(BaseRecovery, is_even_where_nothing_turns_or_all_directions_are_alike) {
   const System even = turning_system("base.stiffness.x=500");
   EXPECT_TRUE(recovers_evenly(even, Face::bottom));
   const Recovery left{kLeft, Face::bottom};
-  EXPECT_NEAR(deformation_at(even, turning_segment(20), left, 0.1), kLeft * std::exp(-0.5), 1e-17);
+  EXPECT_NEAR(Relaxation(even, turning_segment(20), left).deformation_at(0.1), kLeft * std::exp(-0.5), 1e-17);
   EXPECT_NEAR(deformation_between(even, left, placed(0.0), placed(0.1), 0.1), kLeft * std::exp(-0.5), 1e-17);
 }
 
