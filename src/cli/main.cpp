@@ -92,8 +92,8 @@ int run(int argc, char** argv) {
   for (const auto& [subcommand, runner] : runners) {
     if (subcommand->parsed()) return runner();
   }
-  std::cout << app.help();
-  return told(kExitRan);
+  std::fprintf(stderr, "%s\nalign: name a command\n", app.help().c_str());
+  return kExitUsage;
 }
 
 }  // namespace

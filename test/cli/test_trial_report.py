@@ -138,11 +138,6 @@ class SummaryTest(AlignTestCase):
 
 
 class GeneralTest(AlignTestCase):
-    def test_without_a_command_prints_help(self):
-        process = self.align()
-        self.assertEqual(process.returncode, 0)
-        self.assertIn("trial", process.stdout)
-
     def test_help(self):
         for arguments in (["--help"], ["trial", "--help"]):
             process = self.align(*arguments)
@@ -153,7 +148,8 @@ class GeneralTest(AlignTestCase):
     def test_version_is_that_of_the_package(self):
         with open(os.path.join(SOURCE_ROOT, "package.xml")) as file:
             version = file.read().split("<version>")[1].split("</version>")[0]
-        self.assertEqual(self.align("--version").stdout, "align %s\n" % version)
+        process = self.align("--version")
+        self.assertEqual((process.returncode, process.stdout), (0, "align %s\n" % version))
 
     def test_lost_report_is_an_error(self):
         with open("/dev/full", "w") as full:
@@ -162,11 +158,15 @@ class GeneralTest(AlignTestCase):
         self.assertIn("stdout", process.stderr)
 
     def test_lost_help_is_an_error(self):
-        for arguments in ([], ["--version"], ["trial", "--help"]):
+        for arguments in (["--help"], ["--version"], ["trial", "--help"]):
             with self.subTest(arguments), open("/dev/full", "w") as full:
                 process = self.align(*arguments, stdout=full)
                 self.assertEqual(process.returncode, 1)
                 self.assertIn("stdout", process.stderr)
+
+    def test_refuses_a_call_without_a_command(self):
+        message = self.assert_refused([], "name a command")
+        self.assertIn(self.align("--help").stdout.strip(), message, "the usage comes with it")
 
     def test_refuses_a_command_that_there_is_not(self):
         self.assert_refused(["trail", "fig2"], "trail", "there is no such command", "trial")
