@@ -3,26 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "study/row_numbers.h"
+
 namespace vibratory_alignment {
 namespace {
-
-constexpr char kBefore[] = "outcome,mode,duration,end_time,nonimpact_time,x,y,phi,vx,vy,omega";
-
-struct SpotColumns {
-  const char* name;
-  TrialRow::Spots<double> TrialRow::*values;
-};
-
-constexpr SpotColumns kSpotColumns[] = {
-    {"first_impact", &TrialRow::first_impact},
-    {"last_impact", &TrialRow::last_impact},
-    {"peak_force", &TrialRow::peak_force},
-    {"normal_impulse", &TrialRow::normal_impulse},
-    {"friction_impulse", &TrialRow::friction_impulse},
-    {"impulse_x", &TrialRow::impulse_x},
-    {"impulse_y", &TrialRow::impulse_y},
-    {"contact_time", &TrialRow::contact_time},
-};
 
 /// Text as a cell: with quotation marks where it has a comma or such a mark.
 std::string cell(const std::string& text) {
@@ -46,12 +30,8 @@ std::string cell(double value) {
 std::string row_header(const std::vector<std::string>& varied) {
   std::string line = "trial";
   for (const std::string& name : varied) line += ',' + cell(name);
-  line += std::string(",") + kBefore;
-  const auto add_spots = [&](const std::string& name) {
-    for (int spot = 0; spot < kSpotCount; ++spot) line += ',' + name + '_' + to_string(static_cast<Spot>(spot));
-  };
-  add_spots("impacts");
-  for (const SpotColumns& columns : kSpotColumns) add_spots(columns.name);
+  line += ",outcome,mode";
+  for (const std::string& name : row_number_names()) line += ',' + name;
   return line + ",reason";
 }
 
@@ -60,17 +40,10 @@ std::string row_text(const TrialRow& row, const std::vector<VariedValue>& values
   for (const VariedValue& value : values) line += ',' + cell(value.text);
   line += std::string(",") + outcome_word(row);
   if (row.refused) {
-    // mode, duration, end_time, nonimpact_time, six of the state, and what there is of every spot
-    line.append(10 + kSpotCount * (1 + std::size(kSpotColumns)), ',');
+    line.append(1 + row_number_names().size(), ',');  // neither mode nor numbers
   } else {
     line += std::string(",") + to_string(row.mode);
-    const State& end = row.end;
-    for (const double value :
-         {row.duration, row.end_time, row.nonimpact_time, end.x, end.y, end.phi, end.vx, end.vy, end.omega})
-      line += ',' + cell(value);
-    for (const long impacts : row.impacts) line += ',' + std::to_string(impacts);
-    for (const SpotColumns& columns : kSpotColumns)
-      for (const double value : row.*(columns.values)) line += ',' + cell(value);
+    for (const double number : row_numbers(row)) line += ',' + cell(number);
   }
   return line + ',' + cell(row.reason);
 }

@@ -2,9 +2,7 @@
 //
 // Columns: index, sample (number of the sample at its point); the varied values under their key paths (of an offset:
 // key.path_offset; words are NaN); refused, failed, stalled, aligned (it did at some time), and the modes impact,
-// nonimpact, mixed as 0 or 1; duration (of the alignment), end_time, nonimpact_time; x ... omega at the end; and of each
-// spot a1, a2, b1, b2: impacts, first_impact, last_impact, peak_force, normal_impulse, friction_impulse, impulse_x,
-// impulse_y, contact_time, as impacts_a1 and so on.
+// nonimpact, mixed as 0 or 1; and the numbers of row_numbers.h.
 #pragma once
 
 #include <cstddef>

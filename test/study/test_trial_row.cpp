@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "../support/random_scenes.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "study/row_numbers.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -30,6 +33,36 @@ TEST(TrialRow, IsTheResultOfTheTrial) {
     const double duration = result.aligned_time.value_or(TrialRow::none);
     EXPECT_TRUE(row.duration == duration || (std::isnan(row.duration) && std::isnan(duration)));
   }
+}
+
+// Every quantity stands under its own name: all numbers of this row differ.
+TEST(TrialRow, NumbersHaveTheirNames) {
+  TrialRow row;
+  row.duration = 1.0, row.end_time = 2.0, row.nonimpact_time = 3.0;
+  row.end = {4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+  row.impacts = {11, 12, 13, 14};
+  row.first_impact = {21.0, 22.0, 23.0, 24.0}, row.last_impact = {31.0, 32.0, 33.0, 34.0};
+  row.peak_force = {41.0, 42.0, 43.0, 44.0}, row.normal_impulse = {51.0, 52.0, 53.0, 54.0};
+  row.friction_impulse = {61.0, 62.0, 63.0, 64.0}, row.impulse_x = {71.0, 72.0, 73.0, 74.0};
+  row.impulse_y = {81.0, 82.0, 83.0, 84.0}, row.contact_time = {91.0, 92.0, 93.0, 94.0};
+  std::map<std::string, double> expected = {{"duration", 1.0}, {"end_time", 2.0}, {"nonimpact_time", 3.0},
+                                            {"x", 4.0},        {"y", 5.0},        {"phi", 6.0},
+                                            {"vx", 7.0},       {"vy", 8.0},       {"omega", 9.0}};
+  const char* const of_spots[] = {"impacts",          "first_impact", "last_impact", "peak_force",  "normal_impulse",
+                                  "friction_impulse", "impulse_x",    "impulse_y",   "contact_time"};
+  double ten = 0.0;
+  for (const std::string name : of_spots) {
+    ten += 10.0;
+    double spot = 0.0;
+    for (const char* const at : {"_a1", "_a2", "_b1", "_b2"}) expected[name + at] = ten + ++spot;
+  }
+  const std::vector<std::string>& names = row_number_names();
+  const std::vector<double> numbers = row_numbers(row);
+  ASSERT_EQ(names.size(), numbers.size());
+  std::map<std::string, double> found;
+  for (std::size_t i = 0; i < names.size(); ++i) found[names[i]] = numbers[i];
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(found.size(), names.size()) << "a name twice";
 }
 
 // The touches among the events are the impacts, but for one that a trial starts in.
