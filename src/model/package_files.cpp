@@ -7,7 +7,7 @@
 #include <iterator>
 #include <sstream>
 #include <system_error>
-#include <vector>
+#include <utility>
 
 namespace vibratory_alignment {
 namespace {
@@ -80,22 +80,29 @@ fs::path directory_of(const PackageFileKind& kind) {
   return {};
 }
 
-/// Sorted.
 std::vector<std::string> shipped(const PackageFileKind& kind) {
-  std::vector<std::string> names;
   const fs::path directory = directory_of(kind);
-  if (directory.empty()) return names;
+  if (directory.empty()) return {};
   if (kind.only != nullptr) return {kind.only};
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory, error)) {
-    if (entry.path().extension() != ".yaml") continue;
-    names.push_back(entry.path().lexically_relative(directory).replace_extension().generic_string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+  return yaml_names(directory.string());
 }
 
 }  // namespace
+
+std::vector<std::string> yaml_names(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->path().extension() != ".yaml" || !is_file(entry->path())) continue;
+    names.push_back(entry->path().lexically_relative(folder).replace_extension().generic_string());
+  }
+  std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+    const auto depth = [](const std::string& name) { return std::count(name.begin(), name.end(), '/'); };
+    return std::make_pair(depth(a), a) < std::make_pair(depth(b), b);
+  });
+  return names;
+}
 
 std::string find_package_file(const PackageFileKind& kind, const std::string& name) {
   if (name.empty()) throw NoSuchFile("the name is empty");

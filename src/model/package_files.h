@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace vibratory_alignment {
 
@@ -27,5 +28,9 @@ class NoSuchFile : public std::runtime_error {
 /// package ("fig2", "hard/grazing", with or without ".yaml"). Throws NoSuchFile, with the names there are, if it is
 /// neither.
 std::string find_package_file(const PackageFileKind& kind, const std::string& name);
+
+/// The YAML files in the folder and below it, as find_package_file() takes their names: sorted, without ".yaml", those
+/// in folders ("hard/grazing") last. None where there is no such folder.
+std::vector<std::string> yaml_names(const std::string& folder);
 
 }  // namespace vibratory_alignment
