@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "mechanics/statics.h"
+#include "model/scaling.h"
 #include "model/scene_loader.h"
 
 namespace vibratory_alignment {
@@ -18,6 +20,16 @@ Axis make_axis(const GripperAxis& gripper, double anchor) {
   axis.damping = gripper.damping;
   axis.anchor = anchor;
   return axis;
+}
+
+/// "x = 0.001 m, phi = 0.02 rad", in the scene's own units.
+std::string place_text(const Scene& scene, const State& place, bool with_phi) {
+  const bool si = scene.units == Units::si;
+  std::ostringstream text;
+  text << "x = " << place.x * output_units(scene).length << (si ? " m" : "");
+  if (with_phi) text << ", phi = " << place.phi << (si ? " rad" : "");
+  if (!si) text << " (dimensionless)";
+  return text.str();
 }
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& fault) {
@@ -64,16 +76,13 @@ System make_system(const Scene& scene) {
   if (scene.gripper.anchor_y) system.y.anchor = *scene.gripper.anchor_y;
   const bool free_y = !scene.initial.y, free_phi = !scene.initial.phi && system.phi.moves;
   if (!find_equilibrium(system, scene.gripper.pressing_force, free_y, free_phi)) {
-    std::ostringstream fault;
-    fault << "initial: x = " << start.x;
-    if (!free_phi) fault << ", phi = " << start.phi;
-    if (scene.gripper.pressing_force && !touch_height(system, start.x, free_phi ? system.phi.anchor : start.phi)) {
-      fault << " (dimensionless): nothing can be touched from above here, so gripper.pressing_force has no meaning; "
-               "give gripper.anchor.y, or a start over the base";
-    } else {
-      fault << " (dimensionless): no static equilibrium on the base found; give initial.y and initial.phi";
-    }
-    refuse(scene, fault.str());
+    const bool untouchable =
+        scene.gripper.pressing_force && !touch_height(system, start.x, free_phi ? system.phi.anchor : start.phi);
+    refuse(scene, "initial: " + place_text(scene, start, !free_phi) +
+                      (untouchable
+                           ? ": nothing can be touched from above here, so gripper.pressing_force has no meaning; give "
+                             "gripper.anchor.y, or a start over the base"
+                           : ": no static equilibrium on the base found; give initial.y and initial.phi"));
   }
   return system;
 }

@@ -222,6 +222,31 @@ TEST(Equilibrium, leaves_what_the_scene_gives) {
   EXPECT_EQ(phi_free.start.y, 0.91);
 }
 
+/// Why the scene has no start.
+std::string refusal_of(const Scene& scene) {
+  try {
+    make_system(scene);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// Beyond the edges nothing is touched; a gripper that holds the part far above them leaves it no rest on the base.
+TEST(Equilibrium, names_where_there_is_none_in_the_units_of_the_scene) {
+  const auto refusal_in_si = [](std::vector<std::string> settings) {
+    settings.insert(settings.end(), {"contacts=[edges]", "initial.phi=0.03"});
+    return refusal_of(load_scene_file(std::string(SCENE_DIR) + "/gripper_si.yaml", settings));
+  };
+  const std::string beside = refusal_in_si({"initial.x=0.25"});
+  EXPECT_NE(beside.find("x = 0.25 m, phi = 0.03 rad: nothing can be touched"), std::string::npos) << beside;
+  const std::string above = refusal_in_si({"gripper.pressing_force=null", "gripper.anchor.y=0.5"});
+  EXPECT_NE(above.find("x = 0.0008 m, phi = 0.03 rad: no static equilibrium"), std::string::npos) << above;
+  const std::string plain_one = refusal_of(scene_of(plain, {"initial.x=7.5", "initial.y=null"}));
+  EXPECT_NE(plain_one.find("x = 7.5, phi = 0.02 (dimensionless): nothing can be touched"), std::string::npos)
+      << plain_one;
+}
+
 TEST(Equilibrium, velocities_of_locked_motions_are_none) {
   const System s = make_system(scene_of(plain, {"initial.vx=0.3", "initial.omega=0.4", "initial.vy=0.5", "part.inertia=null",
                                                 "gripper.stiffness.x=null"}));
