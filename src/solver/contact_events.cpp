@@ -16,8 +16,8 @@ namespace {
 /// Events closer together than this (relative to their time) are one.
 constexpr double kCoincidence = 4e-16;
 
-/// A sliding velocity this small, relative to the speed of the part, may be zero.
-constexpr double kZeroSlip = 1e-13;
+/// Rounding of a sliding velocity, relative to the speed of the part.
+constexpr double kSlipRounding = 1e-13;
 
 /// A sliding velocity this large, relative to the speed of the part, is not zero, nor is a sliding acceleration relative
 /// to that of the part.
@@ -29,9 +29,9 @@ constexpr double kLengthRounding = 3e-16;
 /// Times are compared with that of what has been found only up to rounding.
 constexpr double kSurelyLater = 1.0 + 1e-12;
 
-/// Largest correction of the time of an event, as a share of it, and how often it is corrected.
-constexpr double kMostCorrection = 1e-3;
-constexpr int kCorrections = 3;
+/// Largest correction of the time at which a contact loads again, as a share of it, and how often it is corrected.
+constexpr double kMostReloadCorrection = 1e-3;
+constexpr int kReloadCorrections = 3;
 
 /// Factor on rounding below which V is taken as zero throughout.
 constexpr double kRestAllowance = 10.0;
@@ -203,7 +203,7 @@ class Search {
     if (!noise_) noise_ = series_noise(system_, segment_, duration_, kRestAllowance);
     double sum = 0.0, power = 1.0;
     for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(v[k]) * power;
-    return sum <= noise_->slip_rate[loaded] * duration_ + kZeroSlip * speed_;
+    return sum <= noise_->slip_rate[loaded] * duration_ + kSlipRounding * speed_;
   }
 
   void guard_loaded(Site site, int loaded) {
@@ -297,10 +297,10 @@ class Search {
   double reload_time(double found, Site site, Face face, const Series& g) const {
     double slope = 0.0, time = found;
     for (int k = order_ - 1; k >= 1; --k) slope = slope * found + k * g[k];
-    for (int i = 0; i < kCorrections; ++i) {
+    for (int i = 0; i < kReloadCorrections; ++i) {
       const PlacedState placed(state_at(segment_, time));
       time += contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() / slope;
-      if (!(std::abs(time - found) <= kMostCorrection * found)) return found;
+      if (!(std::abs(time - found) <= kMostReloadCorrection * found)) return found;
     }
     return std::min(time, duration_);
   }

@@ -34,8 +34,8 @@ constexpr int kLowOrder = 8;
 /// have to follow.
 constexpr double kShortestFlight = 1.0;
 
-/// Largest correction of the time of an event, as a share of the step in which it was found.
-constexpr double kMostCorrection = 0.1;
+/// Largest correction of the time of a crossing, as a share of the step in which it was found.
+constexpr double kMostCrossingCorrection = 0.1;
 
 /// Longest segment in flight, in radians of its fastest motion.
 constexpr double kLongestFlightSegment = 20.0;
@@ -227,7 +227,7 @@ double EventSolver::crossing_time(double found, const Event& event) const {
   const ContactKinematics k = point_at(found);
   const double correction = -k.depth / k.depth_rate;
   // a graze has no rate to divide by, or one of rounding, which leads away
-  if (!(std::abs(correction) <= kMostCorrection * segment_.duration)) return found;
+  if (!(std::abs(correction) <= kMostCrossingCorrection * segment_.duration)) return found;
   const double corrected = std::clamp(found + correction, 0.0, segment_.duration);
   return std::abs(point_at(corrected).depth) <= std::abs(k.depth) ? corrected : found;
 }
