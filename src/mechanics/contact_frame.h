@@ -18,6 +18,9 @@ struct Vec2 {
   double x = 0.0, y = 0.0;
 };
 
+/// a x b out of the plane; of a lever and a force: the moment, counter-clockwise.
+inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
 inline bool is_edge(Site site) { return site == Site::a1 || site == Site::a2; }
 
 /// +1 for the right one of a pair (a1, b1), -1 for the left one.

@@ -12,7 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
 
 /// The directions g = (e, r x e) in which N and T push on (x, y, phi), e = n or t: d' = -g_n.q', V = g_t.q', and

@@ -6,11 +6,6 @@
 #include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
-namespace {
-
-double moment_of(const Vec2& lever, const Vec2& force) { return lever.x * force.y - lever.y * force.x; }
-
-}  // namespace
 
 void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
                      Forces& forces) {
@@ -51,7 +46,7 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
                      force.normal_force * k.normal.y + force.tangential_force * k.tangent.y};
     fx += total.x;
     fy += total.y;
-    moment += moment_of(k.lever, total);
+    moment += cross(k.lever, total);
     ++forces.count;
   }
   forces.ax = system.x.inverse_inertia * fx;
@@ -64,7 +59,7 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
   HoldingForces::Vector slip_rates{};
   for (int m = 0; m < sticking_count; ++m) {
     const ContactKinematics& k = kinematics[static_cast<std::size_t>(sticking[m])];
-    rows[m] = {k.tangent.x, k.tangent.y, moment_of(k.lever, k.tangent)};
+    rows[m] = {k.tangent.x, k.tangent.y, cross(k.lever, k.tangent)};
     slip_rates[m] = k.slip_rate;
   }
   HoldingForces holding;

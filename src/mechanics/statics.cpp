@@ -115,7 +115,7 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     if (n <= 0.0) continue;
     force_x += n * k.normal.x;
     force_y += n * k.normal.y;
-    moment += n * (k.lever.x * k.normal.y - k.lever.y * k.normal.x);
+    moment += n * cross(k.lever, k.normal);
     only = k;
     only_force = n;
     ++loaded;
@@ -124,7 +124,7 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     const double limit = system.friction * only_force;
     const double t = std::clamp(-force_x / only.tangent.x, -limit, limit);
     force_y += t * only.tangent.y;
-    moment += t * (only.lever.x * only.tangent.y - only.lever.y * only.tangent.x);
+    moment += t * cross(only.lever, only.tangent);
   }
   return {force_y, moment};
 }

@@ -25,8 +25,8 @@ struct ContactPoint : ContactKinematics {
   /// k d + h d', which is N where it is positive.
   double push() const { return stiffness * depth + damping * depth_rate; }
   /// Levers of N and T about the mass centre.
-  double normal_lever() const { return lever.x * normal.y - lever.y * normal.x; }
-  double tangent_lever() const { return lever.x * tangent.y - lever.y * tangent.x; }
+  double normal_lever() const { return cross(lever, normal); }
+  double tangent_lever() const { return cross(lever, tangent); }
 };
 
 /// Body coordinates (u, w) of an edge, or position B of a corner.

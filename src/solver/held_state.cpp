@@ -11,8 +11,6 @@ namespace {
 /// Rounding of V relative to the speeds that it is made of: left where contacts (nearly) hold the same motion.
 constexpr double kSpeedRounding = 1e-15;
 
-double moment_of(const Vec2& lever, const Vec2& force) { return lever.x * force.y - lever.y * force.x; }
-
 double reach_of(const Vec2& lever) { return std::abs(lever.x) + std::abs(lever.y); }
 
 }  // namespace
@@ -26,7 +24,7 @@ State take_out_slip(const System& system, const State& state, const ContactState
   HoldingForces::Rows rows;
   HoldingForces::Vector rhs{}, noise{};
   for (int i = 0; i < count; ++i) {
-    rows[i] = {held[i].tangent.x, held[i].tangent.y, moment_of(held[i].lever, held[i].tangent)};
+    rows[i] = {held[i].tangent.x, held[i].tangent.y, cross(held[i].lever, held[i].tangent)};
     rhs[i] = -held[i].slip_velocity;
     const double speed = std::abs(state.vx) + std::abs(state.vy) + std::abs(state.omega) * reach_of(held[i].lever);
     noise[i] = kSpeedRounding * speed;

@@ -31,9 +31,7 @@ double largest_slope_term(const Series& g, int order, double h) {
 
 using Kinematics = std::array<ContactKinematics, kSiteCount>;
 
-TangentRow row_of(const ContactKinematics& k) {
-  return {k.tangent.x, k.tangent.y, k.lever.x * k.tangent.y - k.lever.y * k.tangent.x};
-}
+TangentRow row_of(const ContactKinematics& k) { return {k.tangent.x, k.tangent.y, cross(k.lever, k.tangent)}; }
 
 bool sticks(const Segment& segment, int loaded) { return slip_of(segment, segment.loaded[loaded]) == Slip::stick; }
 
@@ -108,7 +106,7 @@ SeriesNoise series_noise(const System& system, const Segment& segment, double h,
   start.y = segment.y[0];
   start.phi = segment.phi[0];
   Kinematics kinematics;
-  const auto arm_of = [](const Vec2& lever, const Vec2& v) { return std::abs(lever.x * v.y - lever.y * v.x); };
+  const auto arm_of = [](const Vec2& lever, const Vec2& v) { return std::abs(cross(lever, v)); };
   double force_x = rounding * x, force_y = rounding * y, torque = rounding * moment;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];

@@ -19,7 +19,7 @@ using Motions = std::array<State, 3>;
 
 /// Speeds that the sliding velocity of a contact is made of, at most.
 double slip_scale(const ContactKinematics& k, const Motions& motions) {
-  const double arm = k.lever.x * k.tangent.y - k.lever.y * k.tangent.x;
+  const double arm = cross(k.lever, k.tangent);
   double largest = 0.0;
   for (const State& s : motions)
     largest = std::max(largest, std::abs(k.tangent.x * s.vx) + std::abs(k.tangent.y * s.vy) + std::abs(arm * s.omega));
