@@ -7,7 +7,8 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "model/nearest_word.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -62,36 +63,6 @@ std::optional<std::size_t> index_of(const std::string& word, const std::vector<s
   const auto found = std::find(words.begin(), words.end(), word);
   if (found == words.end()) return std::nullopt;
   return static_cast<std::size_t>(found - words.begin());
-}
-
-/// Levenshtein distance: insertions, deletions and replacements of one character that turn a into b.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-/// The word that a mistyped one most likely stands for, or none.
-std::optional<std::string> nearest(const std::string& mistyped, const std::vector<std::string>& words) {
-  if (mistyped.size() > longest_echo) return std::nullopt;
-  std::optional<std::string> best;
-  std::size_t least = 1 + std::max<std::size_t>(1, mistyped.size() / 3);
-  for (const std::string& word : words) {
-    const std::size_t distance = edit_distance(mistyped, word);
-    if (distance >= least) continue;
-    least = distance;
-    best = word;
-  }
-  return best;
 }
 
 bool is_number_text(const std::string& text) {
@@ -292,7 +263,7 @@ void TreeReader::fault(const std::string& key, const std::string& what) {
 void TreeReader::refuse_unknown_keys() {
   for (const auto& [key, node] : entries_) {
     if (index_of(key, known_)) continue;
-    const std::optional<std::string> meant = nearest(key, known_);
+    const std::optional<std::string> meant = nearest_word(key, known_);
     fault(key, "unknown key" + (meant ? ", did you mean " + *meant + "?" : "") + "; known here: " + join(known_, ", "));
   }
 }

@@ -15,6 +15,7 @@
 #include "node/master_watch.h"
 #include "node/node_parameters.h"
 #include "node/scene_from_params.h"
+#include "node/unknown_parameters.h"
 
 namespace {
 
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown_request);
   try {
+    warn_of_unknown_parameters(private_handle);
     const Scene scene = scene_from_params(private_handle);
     Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene), master);
     aligner.spin([] { return interrupted.load(); });

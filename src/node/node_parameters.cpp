@@ -95,6 +95,13 @@ const std::vector<std::string>& topic_names() {
   return names;
 }
 
+const std::vector<std::string>& parameter_names() {
+  static const std::vector<std::string> names = {
+      "time_scale",    "publish_rate",  "sample_interval", "autostart",     "exit_when_done",      "linger",
+      "feedback_rate", "publish_clock", "tf_prefix",       "slot_position", "wait_for_subscribers"};
+  return names;
+}
+
 NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const Scene& scene) {
   Reader reader(private_handle);
   NodeParameters parameters;

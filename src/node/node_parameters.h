@@ -36,6 +36,9 @@ struct NodeParameters {
 /// Topics under the node's name that ~wait_for_subscribers may name.
 const std::vector<std::string>& topic_names();
 
+/// All that read_node_parameters() reads.
+const std::vector<std::string>& parameter_names();
+
 /// Throws ParameterError with every fault.
 NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const Scene& scene);
 

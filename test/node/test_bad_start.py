@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What the node cannot run: it names the fault and ends with exit status 1."""
+import re
 import subprocess
 import tempfile
 import unittest
@@ -84,6 +85,14 @@ class BadStart(unittest.TestCase):
             rospy.set_param('/bad/' + name, value)
             self.assert_refused('/bad/' + name)
             rospy.delete_param('/bad')
+
+    def test_unknown_parameters_are_named(self):
+        rospy.set_param('/bad', {'scene': self.scene, 'time_scale': -1.0, 'publish_rat': 50.0, 'colour': 'red',
+                                 'amplitude': 1.0, 'align': {'status_list_timeout': 5.0}})
+        _, log = start()
+        warned = re.findall(r'WARN.*unknown parameter (\S+) is not read(.*)', log)
+        self.assertEqual([(name, 'publish_rate' in rest) for name, rest in warned],
+                         [('/bad/colour', False), ('/bad/publish_rat', True)], log)
 
     def test_nan_and_infinity_in_every_number(self):
         numbers = ('time_scale', 'publish_rate', 'sample_interval', 'linger', 'feedback_rate')

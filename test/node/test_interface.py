@@ -105,11 +105,14 @@ class Interface(AlignerTestCase):
         self.addCleanup(rospy.delete_param, '/picky')
         for name in set(rows) - {'scene', 'scene_file'}:
             rospy.set_param('/picky/' + name, {'no': 'value'})
+        for name in settings - set(rows):  # as a node before has left them
+            rospy.set_param('/picky/' + name, 1.0)
         process = subprocess.run((program('aligner_node'), '__name:=picky', '_scene_file:=' + scene_path('small')),
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=20, universal_newlines=True)
         self.assertEqual(process.returncode, 1)
         refused = set(re.findall(r'/picky/(\w+): ', process.stdout))
         self.assertEqual(refused, set(rows) - {'scene', 'scene_file'})
+        self.assertNotIn('unknown parameter', process.stdout, 'it knows all of them, and the settings')
         # and it reads no other
         with open(os.path.join(ROOT, 'src', 'node', 'node_parameters.cpp')) as source:
             read = set(re.findall(r'(?:\.number|reader\.\w+)\(\s*"(\w+)"', source.read()))
