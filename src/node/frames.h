@@ -18,6 +18,16 @@ struct Frames {
   std::string edge_a2 = "edge_a2";
 };
 
+/// True for parts of letters, digits, _, - and . with one / between two of them ("left", "cell_2/left"), and for none
+/// at all. tf2 takes no name that begins with /; other characters, blanks above all, break the names that users and
+/// tools write and split.
+inline bool is_frame_prefix(const std::string& prefix) {
+  constexpr char kAllowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+  if (prefix.empty()) return true;
+  return prefix.find_first_not_of(kAllowed) == std::string::npos && prefix.front() != '/' && prefix.back() != '/' &&
+         prefix.find("//") == std::string::npos;
+}
+
 /// All frames but `world` get "prefix/" in front, so that several aligners share one tree. An empty prefix: no change.
 inline Frames frames_with_prefix(const std::string& prefix) {
   Frames frames;

@@ -6,6 +6,7 @@
 
 #include "model/scaling.h"
 #include "model/tree_reader.h"
+#include "node/frames.h"
 #include "node/messages.h"
 
 namespace vibratory_alignment {
@@ -123,8 +124,9 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
                                  .value_or(parameters.feedback_rate);
   parameters.publish_clock = reader.flag("publish_clock", parameters.publish_clock);
   parameters.tf_prefix = reader.text("tf_prefix");
-  if (!parameters.tf_prefix.empty() && (parameters.tf_prefix.front() == '/' || parameters.tf_prefix.back() == '/')) {
-    reader.fault("tf_prefix", parameters.tf_prefix, "must not begin or end with /");
+  if (!is_frame_prefix(parameters.tf_prefix)) {
+    reader.fault("tf_prefix", parameters.tf_prefix,
+                 "must be letters, digits, _, - and ., with single / only between them");
   }
   parameters.slot_position = reader.position("slot_position");
   std::istringstream topics(reader.text("wait_for_subscribers"));

@@ -79,7 +79,7 @@ class BadStart(unittest.TestCase):
     def test_parameters_of_the_node(self):
         for name, value in (('time_scale', -1.0), ('time_scale', float('nan')), ('publish_rate', 0),
                             ('autostart', 'maybe'), ('slot_position', [1, 2]), ('wait_for_subscribers', 'nonsense'),
-                            ('tf_prefix', '/left'), ('feedback_rate', 0), ('publish_clock', 'yes'),
+                            ('feedback_rate', 0), ('publish_clock', 'yes'),
                             ('publish_clock', True)):
             rospy.set_param('/bad/scene', self.scene)
             rospy.set_param('/bad/' + name, value)
@@ -93,6 +93,11 @@ class BadStart(unittest.TestCase):
         warned = re.findall(r'WARN.*unknown parameter (\S+) is not read(.*)', log)
         self.assertEqual([(name, 'publish_rate' in rest) for name, rest in warned],
                          [('/bad/colour', False), ('/bad/publish_rat', True)], log)
+
+    def test_prefix_that_makes_no_frame(self):
+        for prefix in ('left arm', '/left', 'left/', 'left//arm', 'a:b'):
+            rospy.set_param('/bad', {'scene': self.scene, 'tf_prefix': prefix})
+            self.assert_refused('/bad/tf_prefix: %s: must be' % prefix)
 
     def test_nan_and_infinity_in_every_number(self):
         numbers = ('time_scale', 'publish_rate', 'sample_interval', 'linger', 'feedback_rate')
