@@ -12,6 +12,7 @@
 #include <ros/xmlrpc_manager.h>
 
 #include "node/aligner.h"
+#include "node/drive_settings.h"
 #include "node/master_watch.h"
 #include "node/node_parameters.h"
 #include "node/scene_from_params.h"
@@ -52,7 +53,9 @@ int main(int argc, char** argv) {
   try {
     warn_of_unknown_parameters(private_handle);
     const Scene scene = scene_from_params(private_handle);
-    Aligner aligner(private_handle, scene, read_node_parameters(private_handle, scene), master);
+    const NodeParameters parameters = read_node_parameters(private_handle, scene);
+    warn_of_unread_settings(private_handle, DriveSettings(scene, parameters.time_scale).config());
+    Aligner aligner(private_handle, scene, parameters, master);
     aligner.spin([] { return interrupted.load(); });
   } catch (const std::exception& error) {
     return fail(error.what());

@@ -95,6 +95,16 @@ class Interface(AlignerTestCase):
         on_server = {name[len('/aligner/'):] for name in rospy.get_param_names() if name.startswith('/aligner/')}
         self.assertLessEqual(set(rows), on_server)
 
+    def test_settings_start_with_the_scene_and_not_with_parameters(self):
+        self.addCleanup(rospy.delete_param, '/given')
+        process = subprocess.run((program('aligner_node'), '__name:=given', '_scene_file:=' + scene_path('small'),
+                                  '_amplitude:=2.5', '_time_scale:=0', '_exit_when_done:=true'),
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=20, universal_newlines=True)
+        self.assertEqual(process.returncode, 0)
+        self.assertIn('/given/amplitude = 2.5 is not read at the start, the scene gives 1;', process.stdout)
+        self.assertEqual(process.stdout.count('is not read'), 1)
+        self.assertEqual(rospy.get_param('/given/amplitude'), 1.0)
+
     def test_parameters(self):
         rows = {row['name']: row for row in self.tables['Parameters']}
         # what is on the server: given by the launch file, or a setting

@@ -38,5 +38,42 @@ TEST(KnownParameters, AreThoseOfTheNodeAndItsLibraries) {
   EXPECT_EQ(unknown_parameters("/aligner", all, known_parameters()), Lines());
 }
 
+AlignerConfig settings_of_scene() {
+  AlignerConfig settings = AlignerConfig::__getDefault__();
+  settings.enabled = true;
+  settings.amplitude = 1.25;
+  settings.waveform = 2;
+  settings.time_scale = 1.0;
+  return settings;
+}
+
+XmlRpc::XmlRpcValue parameters(const char* name, const XmlRpc::XmlRpcValue& value) {
+  XmlRpc::XmlRpcValue given;
+  given[name] = value;
+  return given;
+}
+
+TEST(UnreadSettings, AreThoseThatTheSceneGivesOtherwise) {
+  const AlignerConfig scene = settings_of_scene();
+  const Lines lines = unread_settings("/left/aligner", parameters("amplitude", 3.5), scene);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].find("/left/aligner/amplitude = 3.5 "), 0u) << lines[0];
+  EXPECT_NE(lines[0].find("the scene gives 1.25;"), std::string::npos) << lines[0];
+  EXPECT_EQ(unread_settings("/aligner", parameters("enabled", XmlRpc::XmlRpcValue(false)), scene).size(), 1u);
+  EXPECT_EQ(unread_settings("/aligner", parameters("waveform", 1), scene).size(), 1u);
+  EXPECT_EQ(unread_settings("/aligner", parameters("amplitude", "much"), scene).size(), 1u);
+}
+
+// As dynamic_reconfigure has left them, or as a launch file gives a whole number; ~time_scale is read.
+TEST(UnreadSettings, AreNoneWhereTheyAreThoseOfTheScene) {
+  AlignerConfig scene = settings_of_scene();
+  EXPECT_EQ(unread_settings("/aligner", parameters("colour", 1), scene), Lines());
+  EXPECT_EQ(unread_settings("/aligner", parameters("amplitude", 1.25), scene), Lines());
+  EXPECT_EQ(unread_settings("/aligner", parameters("waveform", 2), scene), Lines());
+  EXPECT_EQ(unread_settings("/aligner", parameters("time_scale", 0.1), scene), Lines());
+  scene.amplitude = 2.0;
+  EXPECT_EQ(unread_settings("/aligner", parameters("amplitude", 2), scene), Lines());
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
