@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr char kPackage[] = "vibratory_alignment";
 
+/// Folders between one of sources and a package in it, at most.
+constexpr int kDeepest = 2;
+
 std::string read_text(const fs::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -46,36 +49,67 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return items;
 }
 
-/// Places where config/ may be, best first: around the executable (install prefix, source tree, devel space),
-/// then along ROS_PACKAGE_PATH. A devel space lists its source directories in ".catkin".
-std::vector<fs::path> package_directories() {
-  std::vector<fs::path> found;
+/// Where this package may be.
+struct Places {
+  std::vector<fs::path> directories;  ///< with config/ in them, best first
+  std::vector<fs::path> sources;      ///< folders below which source directories of packages are, anywhere
+};
+
+/// Around the executable (install prefix, source tree, devel space), then along ROS_PACKAGE_PATH. A devel space lists
+/// its folders of source directories in ".catkin".
+Places places() {
+  Places found;
   std::vector<fs::path> roots;
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   for (fs::path directory = executable.parent_path(); directory.has_relative_path();
        directory = directory.parent_path()) {
-    found.push_back(directory / "share" / kPackage);
+    found.directories.push_back(directory / "share" / kPackage);
     roots.push_back(directory);
-    for (const std::string& source : split(read_text(directory / ".catkin"), ';')) roots.emplace_back(source);
+    for (const std::string& source : split(read_text(directory / ".catkin"), ';')) found.sources.emplace_back(source);
   }
   const char* const package_path = std::getenv("ROS_PACKAGE_PATH");
   for (const std::string& item : split(package_path == nullptr ? "" : package_path, ':')) {
-    roots.emplace_back(item);
-    found.push_back(fs::path(item) / kPackage);
+    found.sources.emplace_back(item);
+    found.directories.push_back(fs::path(item) / kPackage);
   }
+  roots.insert(roots.end(), found.sources.begin(), found.sources.end());
   for (const fs::path& root : roots) {
     for (const fs::path& directory : {root, root / kPackage}) {
-      if (is_package(directory)) found.push_back(directory);
+      if (is_package(directory)) found.directories.push_back(directory);
     }
   }
   return found;
 }
 
+/// This package's source directory, whatever its name, in the folder or so many folders below it; empty when it is not
+/// there. Other packages and hidden folders are not looked into.
+fs::path package_below(const fs::path& folder, int depth) {
+  std::error_code error;
+  std::vector<fs::path> children;
+  for (fs::directory_iterator child(folder, fs::directory_options::skip_permission_denied, error);
+       !error && child != fs::directory_iterator(); child.increment(error))
+    if (child->path().filename().string().front() != '.' && is_folder(child->path())) children.push_back(child->path());
+  std::sort(children.begin(), children.end());
+  for (const fs::path& child : children)
+    if (is_package(child)) return child;
+  for (const fs::path& child : children) {
+    if (depth == 0 || is_file(child / "package.xml")) continue;
+    const fs::path found = package_below(child, depth - 1);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
 /// The first such folder there is; empty when there is none.
 fs::path directory_of(const PackageFileKind& kind) {
-  for (const fs::path& directory : package_directories()) {
-    if (is_folder(directory / "config" / kind.folder)) return directory / "config" / kind.folder;
+  const auto config_of = [&](const fs::path& directory) { return directory / "config" / kind.folder; };
+  const Places where = places();
+  for (const fs::path& directory : where.directories)
+    if (is_folder(config_of(directory))) return config_of(directory);
+  for (const fs::path& source : where.sources) {
+    const fs::path directory = package_below(source, kDeepest);
+    if (!directory.empty() && is_folder(config_of(directory))) return config_of(directory);
   }
   return {};
 }

@@ -65,7 +65,7 @@ class AlignTestCase(unittest.TestCase):
 
     def align(self, *arguments, **options):
         """Runs align; returns the finished process, whose stdout and stderr are text."""
-        environment = dict(os.environ, ROS_PACKAGE_PATH=SOURCE_ROOT, **options.pop("environment", {}))
+        environment = {**os.environ, "ROS_PACKAGE_PATH": SOURCE_ROOT, **options.pop("environment", {})}
         return subprocess.run(
             [self.align_path] + [str(argument) for argument in arguments],
             cwd=self.directory,

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import unittest
 
 from align_test_case import SOURCE_ROOT, AlignTestCase
@@ -12,6 +13,41 @@ REPORT_KEYS = {
 SOLVER_KEYS = {"name", "tolerance", "steps", "rejected", "rhs_evaluations", "events", "cpu_seconds"}
 STATE_KEYS = {"t", "x", "y", "phi", "vx", "vy", "omega"}
 SPOTS = {"a1", "a2", "b1", "b2"}
+
+
+class WorkspaceTest(AlignTestCase):
+    """The package's files are found from a devel space, wherever below src/ the package is and whatever its folder."""
+
+    def trial_in_workspace(self, package):
+        """`align trial hard/linear_impact` from a workspace with the package in this folder."""
+        folder = self.path(package)
+        shutil.copytree(os.path.join(SOURCE_ROOT, "config"), os.path.join(folder, "config"))
+        shutil.copy(os.path.join(SOURCE_ROOT, "package.xml"), folder)
+        self.write("src/CMakeLists.txt", "")
+        os.makedirs(self.path("src/other/share"))
+        self.write("src/other/package.xml", "<package><name>other</name></package>")
+        os.makedirs(self.path("devel/lib/vibratory_alignment"))
+        self.write("devel/.catkin", self.path("src"))
+        self.align_path = shutil.copy(self.align_path, self.path("devel/lib/vibratory_alignment/align"))
+        return self.align("trial", "hard/linear_impact", environment={"ROS_PACKAGE_PATH": ""})
+
+    def test_in_a_folder_of_another_name(self):
+        process = self.trial_in_workspace("src/clone")
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def test_in_a_folder_among_others(self):
+        process = self.trial_in_workspace("src/cell/aligners/vibratory_alignment")
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def test_not_in_another_package(self):
+        process = self.trial_in_workspace("src/other/copy")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("hard/linear_impact: no such file", process.stderr)
+
+    def test_not_in_a_hidden_folder(self):
+        process = self.trial_in_workspace("src/.hidden")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("hard/linear_impact: no such file", process.stderr)
 
 
 class JsonTest(AlignTestCase):
