@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "mechanics/tilt.h"
 #include "solver/base_recovery.h"
@@ -201,13 +200,6 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
   outcomes_.inserted = system_.has_inserted_depth;
 }
 
-void EventSolver::fail(const std::string& reason) const {
-  std::ostringstream message;
-  message << reason << " at time " << now_.value() << " (dimensionless), x = " << state_.x << ", y = " << state_.y
-          << ", phi = " << state_.phi;
-  throw SolverFailure(message.str());
-}
-
 /// State in flight at `duration` after the segment's start: closed form from the start of the flight, or the series
 /// where that is more exact.
 State EventSolver::flight_state(double duration) const {
@@ -260,7 +252,7 @@ void EventSolver::go_to_end() {
   if (progress) implicit_.leave_start();
   by_implicit_step_ = implicit_now_ || (by_implicit_step_ && !progress);
   now_ = end;
-  if (events_without_progress_ > kMaxEventsWithoutProgress) fail("no contact state is consistent");
+  if (events_without_progress_ > kMaxEventsWithoutProgress) throw SolverFailure("no contact state is consistent");
   state_ = segment_.end;
   if (mode_changes_) {
     mode_ = next_mode_;
@@ -327,7 +319,7 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
   for (std::size_t i = 0; i < kSiteCount; ++i) segment_.contacts[i].slip = mode_.contacts[i].slip;
   segment_.begin = state_ = hold_sticking(system_, state_, mode_.contacts);
   const double new_step = expand_contact(longest, drives);
-  if (excess_friction(system_, segment_, new_step) > kTooMuchFriction) fail("no contact state is consistent");
+  if (excess_friction(system_, segment_, new_step) > kTooMuchFriction) throw SolverFailure("no contact state is consistent");
   return new_step;
 }
 
@@ -485,7 +477,7 @@ const Segment& EventSolver::advance(double limit) {
     mode_ = start_mode(system_, state_, forms_, friction_);
     started_ = true;
   }
-  if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
+  if (++counts_.steps > step_limit_) throw SolverFailure("step limit of " + std::to_string(step_limit_) + " reached");
 
   if (!forms_known_) set_forms(drives_, now_, forms_);
   forms_known_ = false;
@@ -528,7 +520,7 @@ const Segment& EventSolver::advance(double limit) {
       series_.expand_free(state_, drives, corrects ? search_order_ : kFlightOrder, segment_);
       step = series_step(system_, segment_, point_tolerance);
     }
-    if (!is_finite(segment_)) fail("the motion is no longer finite");
+    if (!is_finite(segment_)) throw SolverFailure("the motion is no longer finite");
     // the series of the points turn with the part; those of the other edge and the corners follow from these
     segment_.coarse = implicit_now_;
     step = std::min({step, end, direction_step(step, point_tolerance)});
@@ -545,7 +537,7 @@ const Segment& EventSolver::advance(double limit) {
         if (recovery.deformation > 0.0)
           step = std::min(step, recovery_step(system_, segment_, recovery, point_tolerance));
     segment_.duration = step;
-    if (!(segment_.duration >= 0.0)) fail("the motion is no longer finite");
+    if (!(segment_.duration >= 0.0)) throw SolverFailure("the motion is no longer finite");
     // contacts that have been found to stick here, though they part within the step, hold for a part of it
     if (contact && holds_here_)
       for (int i = 0; i < kMostHalvings && must_part(); ++i) segment_.duration *= 0.5;
@@ -569,7 +561,7 @@ const Segment& EventSolver::advance(double limit) {
   if (contact && method_ == ContactMethod::automatic && end > 0.0 && !contradicted()) settle(segment_.duration, end);
   const bool kink = segment_.duration == to_kink;
   if (found.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
-    fail("the step has become too short");
+    throw SolverFailure("the step has become too short");
 
   const bool whole_step = implicit_now_ && segment_.duration == implicit_length_;
   if (!whole_step) implicit_.forget();
@@ -577,7 +569,7 @@ const Segment& EventSolver::advance(double limit) {
     segment_.end = whole_step ? implicit_.end()
                    : contact  ? state_at(segment_, segment_.duration)
                               : flight_state(segment_.duration);
-  if (!is_finite(segment_.end)) fail("the motion is no longer finite");
+  if (!is_finite(segment_.end)) throw SolverFailure("the motion is no longer finite");
   prepare_next(found, kink);
   return segment_;
 }

@@ -50,7 +50,6 @@ class EventSolver final : public Solver {
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
   void forces_jump();
-  [[noreturn]] void fail(const std::string& reason) const;
 
   System system_;
   double tolerance_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace vibratory_alignment {
 namespace {
@@ -25,13 +24,6 @@ FixedStepSolver::FixedStepSolver(const System& system, const std::vector<Excitat
       books_{open_book(system_, sites_, system.start), ContactBook(system.start)},
       drives_(excitations, now_),
       awaits_inserted_(system.has_inserted_depth) {}
-
-void FixedStepSolver::fail(const std::string& reason) const {
-  std::ostringstream message;
-  message << reason << " at time " << now_.value() << " (dimensionless), x = " << state().x << ", y = " << state().y
-          << ", phi = " << state().phi;
-  throw SolverFailure(message.str());
-}
 
 void FixedStepSolver::pass_drives() {
   if (!drives_passed_) drives_.pass(segment_.duration);
@@ -57,7 +49,7 @@ void FixedStepSolver::go_to_end() {
 const Segment& FixedStepSolver::advance(double limit) {
   if (started_) go_to_end();
   started_ = true;
-  if (++counts_.steps > step_limit_) fail("step limit of " + std::to_string(step_limit_) + " reached");
+  if (++counts_.steps > step_limit_) throw SolverFailure("step limit of " + std::to_string(step_limit_) + " reached");
 
   const double to_limit = std::max(0.0, limit - now_);
   double duration = planned_;
@@ -73,7 +65,7 @@ const Segment& FixedStepSolver::advance(double limit) {
   drives_.begin_step(now_);
   if (duration > 0.0) {
     counts_.rhs_evaluations += method_->step({system_, sites_, book(), drives_, duration}, segment_, slip_at_end_);
-    if (!is_finite(segment_.end)) fail("the motion is no longer finite");
+    if (!is_finite(segment_.end)) throw SolverFailure("the motion is no longer finite");
   } else {
     rest();
   }

@@ -39,7 +39,6 @@ class FixedStepSolver final : public Solver {
   const ContactBook& book() const { return books_[book_]; }
   ContactBook& end_book() { return books_[1 - book_]; }
   const State& state() const { return book().placed.state; }
-  [[noreturn]] void fail(const std::string& reason) const;
 
   System system_;
   std::unique_ptr<StepMethod> method_;

@@ -11,7 +11,8 @@
 
 namespace vibratory_alignment {
 
-/// A run that cannot go on: step limit, numbers that are no longer finite, no consistent contact state.
+/// A run that cannot go on from the end of its last segment: step limit, numbers that are no longer finite, no
+/// consistent contact state.
 class SolverFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -8,6 +8,7 @@
 
 #include "mechanics/statics.h"
 #include "mechanics/system.h"
+#include "model/scaling.h"
 #include "trial/contact_watch.h"
 #include "trial/energy.h"
 #include "trial/make_solver.h"
@@ -177,13 +178,14 @@ class Simulation::Impl {
     }
   }
 
-  /// The solver says when and where it gave up; what was found in passing has happened in the segment just passed.
+  /// Where the last segment that has been passed ends, the next one has failed, or what came of it.
   void fail(const std::string& reason) {
+    const OutputUnits units = output_units(scene_);
+    const bool si = scene_.units == Units::si;
     std::ostringstream text;
-    text << reason;
-    if (reason.find(" at time ") == std::string::npos)
-      text << " at time " << time_ << " (dimensionless), x = " << state_.x << ", y = " << state_.y
-           << ", phi = " << state_.phi;
+    text << reason << " at time " << time_ * units.time << (si ? " s" : " (dimensionless)")
+         << ", x = " << state_.x * units.length << (si ? " m" : "") << ", y = " << state_.y * units.length
+         << (si ? " m" : "") << ", phi = " << state_.phi << (si ? " rad" : "");
     failure_ = text.str();
     outcome_ = Outcome::failed;
     end();

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,25 @@ TEST(Failures, the_step_limit_ends_the_trial) {
     EXPECT_LE(result.counts.steps, limit + 1);
     EXPECT_TRUE(is_finite(result.final_state));
   }
+}
+
+// In SI units 1 is 4 ms and 3 mm here: M = 0.064 kg, K_Y = 4000 N/m, F1 = 12 N.
+TEST(Failures, say_where_in_the_units_of_the_scene) {
+  Scene scene = scene_of(test::plain);
+  scene.solver.step_limit = 20;
+  const TrialResult plain = run(scene);
+  const auto place = [&](double time, const char* second, double length, const char* metre, const char* radian) {
+    std::ostringstream text;
+    text << "step limit of 20 reached at time " << plain.final_time * time << second
+         << ", x = " << plain.final_state.x * length << metre << ", y = " << plain.final_state.y * length << metre
+         << ", phi = " << plain.final_state.phi << radian;
+    return text.str();
+  };
+  EXPECT_GT(plain.final_time, 0.0);
+  EXPECT_EQ(plain.failure, place(1.0, " (dimensionless)", 1.0, "", ""));
+  scene.units = Units::si;
+  scene.scales = Scales{0.064, 4000.0, 12.0};
+  EXPECT_EQ(run(scene).failure, place(4e-3, " s", 3e-3, " m", " rad"));
 }
 
 TEST(Failures, an_ended_trial_stays_ended) {
