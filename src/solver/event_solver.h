@@ -1,6 +1,6 @@
 // Solvers `event`, `implicit` and `auto`: the hybrid step of docs/hybrid_step.md. Flight in closed form; contact under
-// error control by power series of high order, by implicit steps, or by whichever goes further for its cost; every event
-// located to roundoff as a root of the polynomials.
+// error control by power series of high order, by implicit steps, or by whichever goes further for its cost; every
+// event located to roundoff as a root of the polynomials.
 #pragma once
 
 #include "solver/flight.h"
@@ -27,7 +27,11 @@ class EventSolver final : public Solver {
   const SolverCounts& counts() const override { return counts_; }
 
  private:
+  void start();
+  void begin_segment(bool contact);
   bool leap(double longest, FoundEvents& found);
+  void take_step(double longest, bool contact);
+  double shortened(double step, double longest, double point_tolerance, bool contact);
   State flight_state(double duration) const;
   double crossing_time(double found, const Event& event) const;
   double first_crossing(const FoundEvents& found) const;
@@ -50,6 +54,11 @@ class EventSolver final : public Solver {
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
   void forces_jump();
+  /// Not finite where any coefficient is not: the last ones are made of all others.
+  static double last_terms(const Segment& segment);
+
+  /// Implicit steps to events no later than this, relative to the time, are no progress.
+  static constexpr double kHardly = 1e-15;
 
   System system_;
   double tolerance_;

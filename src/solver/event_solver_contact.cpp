@@ -1,0 +1,245 @@
+// Part of EventSolver: how a step in contact is taken, by power series, by an implicit step, or by whichever goes
+// further for its cost (docs/hybrid_step.md "Contact", "Implicit steps", "Automatic").
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/event_solver.h"
+#include "solver/held_state.h"
+#include "solver/series_noise.h"
+#include "solver/step_size.h"
+
+namespace vibratory_alignment {
+namespace {
+
+/// Coefficients this large leave no room for what is computed from them.
+constexpr double kNearOverflow = 1e250;
+
+/// Order of the series of motions so fast that their high powers overflow.
+constexpr int kLowOrder = 8;
+
+/// From so many on the polynomials of an implicit step contradict what the series have decided: these go on.
+constexpr int kContradiction = 4;
+
+/// An implicit step that was taken again to end at an event may have it this much later, as a share of the step; it is
+/// taken again until it has it within the second of these, so often at most.
+constexpr double kMostDelay = 1e-3, kMostShift = 1e-6;
+constexpr int kMostRetakes = 8;
+
+/// A correction that is not this much smaller than the one before is not worth one more.
+constexpr double kSlowShift = 0.5;
+
+/// Steps this short, relative to the time, change the state by hardly more than its last digits.
+constexpr double kMinute = 1e-12;
+
+/// Lengths that are tried, each half of the one before, where a shorter step does not converge.
+constexpr int kMostShorter = 6;
+
+/// Friction beyond its limit, relative to it: where it is decided anew, and where that has found no answer.
+constexpr double kExcessFriction = 1e-8, kTooMuchFriction = 1e-3;
+
+/// Factor on rounding beyond which sticking contacts have to move apart, and on what friction has left of their V'.
+constexpr double kPartAllowance = 10.0, kLeftAgain = 2.0;
+
+/// Bound of the change of a normal force over the time t, as a share of that force: the largest of the contacts.
+double normal_force_change(const Segment& segment, double t) {
+  double most = 0.0;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const Series& force = segment.loaded[i].normal_force;
+    double change = 0.0;
+    for (int k = segment.order; k > 0; --k) change = (change + std::abs(force[k])) * t;
+    most = std::max(most, change / force[0]);
+  }
+  return most;
+}
+
+}  // namespace
+
+double EventSolver::last_terms(const Segment& s) {
+  double sum = s.vx[s.order] + s.vy[s.order] + s.omega[s.order];
+  for (int i = 0; i < s.loaded_count; ++i)
+    sum += s.loaded[i].normal_force[s.order] + s.loaded[i].tangential_force[s.order];
+  return std::abs(sum);
+}
+
+/// True when the sticking contacts hold the same motion now but would have to move apart.
+bool EventSolver::must_part() const {
+  const double left = series_.not_held_within(segment_.duration);
+  if (!(left > 0.0)) return false;
+  const SeriesNoise noise = series_noise(system_, segment_, segment_.duration, kPartAllowance);
+  return left > std::max(noise.held_slip_rate, kLeftAgain * mode_.unheld_slip_rate);
+}
+
+/// Expands the motion in contact for a step of at most `longest`; the length that its truncation error allows.
+double EventSolver::expand_contact(double longest, const DriveForms& drives) {
+  reach_.begin(longest);
+  series_.expand_contact(state_, drives, contact_order_, segment_, &reach_);
+  if (last_terms(segment_) < kNearOverflow) return reach_.last_time();
+  // rates so high that their powers overflow
+  series_.expand_contact(state_, drives, kLowOrder, segment_);
+  return reach_.time(segment_);
+}
+
+/// The same, once friction holds what is said to stick.
+double EventSolver::series_contact_step(double longest, const DriveForms& drives) {
+  const double step = expand_contact(longest, drives);
+  if (excess_friction(system_, segment_, step) <= kExcessFriction) return step;
+  segment_.duration = 0.0;
+  segment_.end = state_;
+  for (std::size_t i = 0; i < kSiteCount; ++i)
+    if (mode_.contacts[i].slip == Slip::stick) mode_.pins[i].hold_plus = mode_.pins[i].hold_minus = 0;
+  decide_friction_anew(system_, segment_, drives, friction_, mode_);
+  for (std::size_t i = 0; i < kSiteCount; ++i) segment_.contacts[i].slip = mode_.contacts[i].slip;
+  segment_.begin = state_ = hold_sticking(system_, state_, mode_.contacts);
+  const double new_step = expand_contact(longest, drives);
+  if (excess_friction(system_, segment_, new_step) > kTooMuchFriction)
+    throw SolverFailure("no contact state is consistent");
+  return new_step;
+}
+
+/// Longest part of a step over which the series of cos phi and sin phi hold. The last terms of a power series show what
+/// is cut off; where phi is the polynomial of an implicit step they are exact, and what is cut off is smaller than they
+/// are by the angle through which the part turns.
+double EventSolver::direction_step(double step, double point_tolerance) {
+  const double turn = implicit_now_ ? std::abs(value_at(segment_.phi, segment_.order, step) - segment_.phi[0]) : 1.0;
+  const double tolerance = turn > point_tolerance ? point_tolerance / turn : 1.0;
+  return pair_step(series_.direction(segment_), segment_.order, tolerance);
+}
+
+/// One step in contact of at most `longest`, by the method that is due.
+double EventSolver::contact_step(double longest, const DriveForms& drives) {
+  // to a kink or limit that is here already, when rounding left nothing on the way, the series go
+  if (method_ == ContactMethod::series || longest == 0.0) return series_contact_step(longest, drives);
+  if (contradicted()) {
+    believe_state();
+    return series_contact_step(longest, drives);
+  }
+  if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
+  const double step = implicit_contact_step({longest}, drives);
+  return step > 0.0 ? step : series_contact_step(longest, drives);
+}
+
+/// True when the series of a contact step have an event within `step`.
+bool EventSolver::has_event(double step, const DriveForms& drives) {
+  FoundEvents found;
+  segment_.duration = step;
+  find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
+  return found.count > 0;
+}
+
+/// Automatic: one by the method that is chosen.
+double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
+  choice_.look_at(segment_.contacts);
+  if (choice_.may_pass_over()) {
+    const double step = series_contact_step(longest, drives);
+    const double change = normal_force_change(segment_, std::min(step, longest));
+    if (!choice_.passing_over_pays(step, longest, change) || has_event(std::min(step, longest), drives)) {
+      choice_.earn();
+      return step;
+    }
+    choice_.start_passing_over(step);
+  } else if (choice_.starts_trial(longest)) {
+    implicit_.suggest(choice_.trial_length());
+  } else if (choice_.asks_series()) {
+    choice_.learn_pace(expand_contact(0.0, drives));
+    counts_.rhs_evaluations += segment_.order;
+  }
+  if (choice_.implicit()) {
+    effort_before_ = effort();
+    const double step = implicit_contact_step(choice_.bounds(longest), drives);
+    if (step > 0.0) return step;
+    choice_.give_up_implicit(spent());
+  }
+  choice_.earn();
+  return series_contact_step(longest, drives);
+}
+
+/// An implicit step; 0 when there is none within the bounds.
+double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveForms& drives) {
+  const double step = implicit_.take(state_, drives, bounds, segment_, counts_);
+  if (step == 0.0 || excess_friction(system_, segment_, 0.0) > kExcessFriction) return 0.0;
+  implicit_now_ = true;
+  implicit_length_ = step;
+  series_.adopt(segment_);
+  return step;
+}
+
+/// Takes the implicit step again with the length `step`, or where that does not converge with half of it, and so on.
+/// Returns its length; 0 when none converges: the polynomials of the longer one stay, whose state there only they know.
+double EventSolver::shorten_implicit_step(double step) {
+  for (int i = 0; i < kMostShorter; ++i, step *= 0.5) {
+    if (!implicit_.retake(step, segment_, counts_)) continue;
+    series_.adopt(segment_);
+    return implicit_length_ = step;
+  }
+  implicit_length_ = std::numeric_limits<double>::infinity();
+  return 0.0;
+}
+
+/// Takes the implicit step again to the events found in it, until they are where the shorter step, which is the more
+/// exact one, has them. None are left where that has none, unless it is so short that rounding holds the state, or
+/// where only a step that ends before them converges.
+void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found) {
+  double shift_before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostRetakes && found.time > kHardly * now_.high; ++i) {
+    const double length = shorten_implicit_step(found.time);
+    if (length == 0.0) return;
+    const FoundEvents before = found;
+    found.clear();
+    segment_.duration = (1.0 + kMostDelay) * length;
+    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
+    if (found.count == 0 && length <= kMinute * now_.high) found = before;
+    if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
+    if (found.count == 0) return;
+    const double shift = std::abs(found.time - length);
+    if (shift > kMostShift * length) {
+      if (shift > kSlowShift * shift_before) return;  // rounding is all that moves it
+      shift_before = shift;
+      continue;
+    }
+    // what coincided before does so to within the error of the step
+    if (found.count < before.count) {
+      const double time = found.time;
+      found = before;
+      found.time = time;
+    }
+    return;
+  }
+}
+
+/// True when events have followed each other at the present time, one undoing the other, and implicit steps led there.
+bool EventSolver::contradicted() const { return by_implicit_step_ && events_without_progress_ >= kContradiction; }
+
+/// The end of an implicit step that was cut short at V = 0 has another V, by the error of the step: what slides as that
+/// says does so. Where V says the contrary of what friction has decided, and that goes on, V' is such an error as well.
+void EventSolver::believe_state() {
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const ContactState& contact = mode_.contacts[i];
+    if (contact.phase != Phase::loaded || (contact.slip != Slip::plus && contact.slip != Slip::minus)) continue;
+    const double v = contact_kinematics(system_, state_, static_cast<Site>(i), contact.face).slip_velocity;
+    const double along = contact.slip == Slip::plus ? v : -v;
+    if (along > 0.0) mode_.pins[i].slip = 0;
+    if (along < 0.0 && events_without_progress_ >= 2 * kContradiction)
+      mode_.pins[i].slip = std::max(mode_.pins[i].slip, 2);
+  }
+}
+
+/// Evaluations and factorizations until now.
+StepEffort EventSolver::effort() const { return {counts_.rhs_evaluations, implicit_.factorizations()}; }
+
+/// What the present implicit step has taken.
+StepEffort EventSolver::spent() const {
+  const StepEffort now = effort();
+  return {now.evaluations - effort_before_.evaluations, now.factorizations - effort_before_.factorizations};
+}
+
+/// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
+/// is gone again.
+void EventSolver::settle(double gone, double longest) {
+  if (choice_.implicit())
+    choice_.settle_implicit(gone, longest, spent());
+  else
+    choice_.settle_series(gone, longest);
+}
+
+}  // namespace vibratory_alignment
