@@ -23,7 +23,7 @@ struct Outcome {
 // Runs `integrate` again and again, until 0.3 s of processor time are spent and 5 repetitions are made (after 3 s:
 // fewer). Returns the least time in seconds, nan for a run that fails.
 double report(const std::string& peer, const std::string& problem, double setting,
-            const std::function<Outcome()>& integrate);
+              const std::function<Outcome()>& integrate);
 
 // Those of the problems that are named in the command line; all of them where none is named.
 std::vector<Problem> chosen(const std::vector<Problem>& known, int argc, char** argv);

@@ -77,8 +77,7 @@ int run_calibrate(const Options& options) {
 
   std::unique_ptr<CalibrationLog> log;
   if (!options.log.empty()) {
-    const auto print =
-        with_refusals([&] { return fingerprint(calibration, find_scene, VIBRATORY_ALIGNMENT_VERSION); });
+    const auto print = with_refusals([&] { return fingerprint(calibration, find_scene, VIBRATORY_ALIGNMENT_VERSION); });
     log = std::make_unique<CalibrationLog>(options.log, print, options.resume);
   }
 

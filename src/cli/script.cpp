@@ -32,7 +32,8 @@ int run_script(const std::string& name, const std::vector<std::string>& argument
 
 void require_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose) {
   const int status = run_script(name, arguments, purpose);
-  if (status != 0) throw std::runtime_error(purpose + ": " + name + " failed with exit status " + std::to_string(status));
+  if (status != 0)
+    throw std::runtime_error(purpose + ": " + name + " failed with exit status " + std::to_string(status));
 }
 
 }  // namespace vibratory_alignment

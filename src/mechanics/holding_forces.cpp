@@ -31,8 +31,8 @@ constexpr double kSlipRateRounding = 1e-14;
 
 }  // namespace
 
-/// J, rows of count_ contacts; columns from the most mobile axis to the least: as a row of (V M^-1/2)^T the first must not
-/// cost the digits of the others.
+/// J, rows of count_ contacts; columns from the most mobile axis to the least: as a row of (V M^-1/2)^T the first must
+/// not cost the digits of the others.
 HoldingForces::Decomposition HoldingForces::decompose() const {
   Decomposition of;
   std::sort(of.axes.begin(), of.axes.end(), [&](int a, int b) { return scale_[a] > scale_[b]; });

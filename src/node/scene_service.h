@@ -11,8 +11,8 @@
 
 namespace vibratory_alignment {
 
-/// `put_on` is given the scene, loaded and checked, makes it the node's, and returns words about where it waits. It throws
-/// SceneError when the scene has no start; then the present one goes on.
+/// `put_on` is given the scene, loaded and checked, makes it the node's, and returns words about where it waits. It
+/// throws SceneError when the scene has no start; then the present one goes on.
 ros::ServiceServer advertise_load_scene(ros::NodeHandle private_handle,
                                         std::function<std::string(const Scene&)> put_on);
 

@@ -13,8 +13,8 @@
 
 namespace vibratory_alignment {
 
-/// All numbers dimensionless. Changes enter at the instant of the sample that next() gave last, or as far beyond it as a
-/// call of next() that was not to go on has come.
+/// All numbers dimensionless. Changes enter at the instant of the sample that next() gave last, or as far beyond it as
+/// a call of next() that was not to go on has come.
 class TrialRun {
  public:
   /// Samples lie at n * interval, as `align trial --sample` has them. Throws as Simulation does.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kQueueSize = 2000;
 constexpr std::size_t kKeptSamples = 5000;  ///< until they are taken
 constexpr std::chrono::milliseconds kLookInterval(1000);
-constexpr std::chrono::milliseconds kPatience(3000);  ///< with a node that does not answer
+constexpr std::chrono::milliseconds kPatience(3000);   ///< with a node that does not answer
 constexpr std::chrono::milliseconds kStandstill(400);  ///< without a sample: the trial stands still
 constexpr double kTurn = 0.02;                         ///< of the worker [s]
 
@@ -51,7 +51,8 @@ void tell_departures(const Entries& asked, const Entries& in_force, std::string&
     for (const auto& other : in_force) {
       if (other.name != entry.name || other.value == entry.value) continue;
       const double wanted = static_cast<double>(entry.value), got = static_cast<double>(other.value);
-      words += (words.empty() ? "" : "; ") + entry.name + ": " + number(wanted) + " is not possible, it is " + number(got);
+      words +=
+          (words.empty() ? "" : "; ") + entry.name + ": " + number(wanted) + " is not possible, it is " + number(got);
     }
   }
 }
@@ -79,7 +80,7 @@ void AlignerLink::subscribe() {
                   handle_.subscribe(node_ + "/parameter_updates", 10, &AlignerLink::on_settings, this)};
 }
 
-// --- What the panel calls ---------------------------------------------------------------------------------------------
+// --- What the panel calls ------------------------------------------------------------------------------------------
 
 void AlignerLink::trigger(const std::string& service) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -123,7 +124,7 @@ void AlignerLink::drop_hanging_call() {
   if (busy_since_ && Clock::now() - *busy_since_ > kPatience) client_.shutdown();
 }
 
-// --- What the node publishes ------------------------------------------------------------------------------------------
+// --- What the node publishes ---------------------------------------------------------------------------------------
 
 void AlignerLink::on_state(const AlignerState& state) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -154,7 +155,7 @@ void AlignerLink::on_settings(const dynamic_reconfigure::Config& settings) {
   status_.settings = config;
 }
 
-// --- The worker -------------------------------------------------------------------------------------------------------
+// --- The worker ----------------------------------------------------------------------------------------------------
 
 void AlignerLink::work() {
   while (!ending_ && ros::ok()) {

@@ -28,13 +28,13 @@ class AlignerLink {
 
   struct Status {
     Presence presence = Presence::sought;
-    bool running = false;                       ///< samples come in
-    std::optional<AlignerConfig> settings;      ///< in force
-    bool changing = false;                      ///< they are about to be changed: changes are on their way to the node
-    std::optional<AlignerState> state;          ///< the last sample
-    std::optional<AlignerResult> result;        ///< of the trial whose last sample that is
-    std::string answer;                         ///< to the last command; empty: none yet
-    bool refused = false;                       ///< that answer is a refusal
+    bool running = false;                   ///< samples come in
+    std::optional<AlignerConfig> settings;  ///< in force
+    bool changing = false;                  ///< they are about to be changed: changes are on their way to the node
+    std::optional<AlignerState> state;      ///< the last sample
+    std::optional<AlignerResult> result;    ///< of the trial whose last sample that is
+    std::string answer;                     ///< to the last command; empty: none yet
+    bool refused = false;                   ///< that answer is a refusal
   };
 
   /// `node`: name of the aligner, as in "/aligner". ROS must have been initialized.

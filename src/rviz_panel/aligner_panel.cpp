@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ros/names.h>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QLabel>
@@ -13,7 +14,6 @@
 #include <QStyle>
 #include <QVBoxLayout>
 #include <pluginlib/class_list_macros.hpp>
-#include <ros/names.h>
 
 #include "node/quantity_text.h"
 #include "rviz_panel/history_plot.h"
@@ -246,7 +246,8 @@ void AlignerPanel::refresh() {
   const AlignerLink::Status status = link_->status();
   for (const AlignerState& state : link_->take_samples()) {
     plot_->set_units(state.has_scales);
-    plot_->add({state.time, state.misalignment, state.peak_force[AlignerState::A1], state.peak_force[AlignerState::A2]});
+    plot_->add(
+        {state.time, state.misalignment, state.peak_force[AlignerState::A1], state.peak_force[AlignerState::A2]});
   }
   show_presence(status);
   show_progress(status);
@@ -272,7 +273,8 @@ void AlignerPanel::show_presence(const AlignerLink::Status& status) {
   if (controls_->isEnabled() != present) controls_->setEnabled(present);
 
   const QString whole = QString::fromStdString(status.answer);
-  const QString brief = whole.size() > kLongestAnswer ? whole.left(kLongestAnswer) + QString::fromUtf8(" \u2026") : whole;
+  const QString brief =
+      whole.size() > kLongestAnswer ? whole.left(kLongestAnswer) + QString::fromUtf8(" \u2026") : whole;
   const QString answer = present ? coloured(brief, status.refused ? kRed : kGrey) : QString();
   if (answer_->text() != answer) answer_->setText(answer);
   if (answer_->toolTip() != whole) answer_->setToolTip(whole);

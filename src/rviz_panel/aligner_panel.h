@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include <QTimer>
 #include <rviz/panel.h>
+#include <QTimer>
 
 #include "rviz_panel/aligner_link.h"
 

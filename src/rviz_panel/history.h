@@ -1,4 +1,5 @@
-// The run of a trial as the plot shows it: misalignment and reactions over time, in as many points as a screen can show.
+// The run of a trial as the plot shows it: misalignment and reactions over time, in as many points as a screen can
+// show.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace {
 
 // Told apart also by those who see colours otherwise (Okabe and Ito), as in the plots of `align`.
 const QColor kBlue(0x00, 0x72, 0xB2), kOrange(0xD5, 0x5E, 0x00), kGrid(0xE3, 0xE6, 0xE9), kAxis(0x5A, 0x62, 0x6A);
-constexpr int kMargin = 6;       ///< around everything [pixels]
+constexpr int kMargin = 6;        ///< around everything [pixels]
 constexpr int kTickSpacing = 44;  ///< of pixels for a mark
 constexpr double kHeadroom = 1.08;
 
@@ -115,7 +115,8 @@ class Frame {
 
 HistoryPlot::HistoryPlot(QWidget* parent) : QWidget(parent) {
   setObjectName("plot");
-  setToolTip("Over simulated time: the misalignment, and the largest normal forces at the slot's edges a1 (right) and a2");
+  setToolTip(
+      "Over simulated time: the misalignment, and the largest normal forces at the slot's edges a1 (right) and a2");
 }
 
 void HistoryPlot::add(const HistoryPoint& point) {

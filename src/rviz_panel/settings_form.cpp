@@ -40,8 +40,7 @@ SettingsForm::SettingsForm(Change change, QWidget* parent) : QWidget(parent), ch
   add_number(*grid, "Time scale", "time_scale", &AlignerConfig::time_scale);
 }
 
-void SettingsForm::add_number(QGridLayout& grid, const char* title, const char* setting,
-                              double AlignerConfig::*value) {
+void SettingsForm::add_number(QGridLayout& grid, const char* title, const char* setting, double AlignerConfig::*value) {
   const AlignerConfig &least = AlignerConfig::__getMin__(), &most = AlignerConfig::__getMax__();
   Number number{setting, value, new NumberField, new QLabel};
   number.field->setObjectName(setting);
@@ -88,7 +87,8 @@ QString SettingsForm::note_of(const Number& number, double value, const SettingU
   if (number.setting == "time_scale") {
     if (value == 0.0) return "as fast as it goes";
     return value == 1.0 ? QString("real time")
-                        : QString("%1 times %2").arg(value < 1.0 ? 1.0 / value : value, 0, 'g', 3)
+                        : QString("%1 times %2")
+                              .arg(value < 1.0 ? 1.0 / value : value, 0, 'g', 3)
                               .arg(value < 1.0 ? "slower" : "faster");
   }
   if (number.setting == "phase") return QString("%1\u00B0").arg(value * 180.0 / M_PI, 0, 'g', 3);

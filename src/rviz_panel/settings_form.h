@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <QWidget>
 #include <vibratory_alignment/AlignerConfig.h>
+#include <QWidget>
 
 #include "rviz_panel/number_field.h"
 

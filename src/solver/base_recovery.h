@@ -1,8 +1,8 @@
-// A base that recovers (base.recovery): once the part has left it, its deformation u along the normal of the face it was
-// under relaxes as u' = -(k/h) u (MODEL.md: the paper's base is massless, N = k u + h u' = 0). k and h are those along
-// the normal of now: on a face of the part it turns, and where the base is not stiff and damped alike in all directions
-// k/h changes with it. So long as the part could push no force on its foot, N < 0 of the motion of now, it is apart from
-// the base as well: for g = u - d, h g' + k g = -N (docs/hybrid_step.md "Guards").
+// A base that recovers (base.recovery): once the part has left it, its deformation u along the normal of the face it
+// was under relaxes as u' = -(k/h) u (MODEL.md: the paper's base is massless, N = k u + h u' = 0). k and h are those
+// along the normal of now: on a face of the part it turns, and where the base is not stiff and damped alike in all
+// directions k/h changes with it. So long as the part could push no force on its foot, N < 0 of the motion of now, it
+// is apart from the base as well: for g = u - d, h g' + k g = -N (docs/hybrid_step.md "Guards").
 #pragma once
 
 #include "mechanics/system.h"
@@ -37,7 +37,8 @@ class Relaxation {
   Series exponent_{};  ///< the integral of k/h
 };
 
-/// How far deformation_series() holds: no farther than h/k, and than the series of k/h does to the relative error given.
+/// How far deformation_series() holds: no farther than h/k, and than the series of k/h does to the relative error
+/// given.
 double recovery_step(const System& system, const Segment& segment, const Recovery& recovery, double tolerance);
 
 /// u after `elapsed`, from the states at both ends: exact where the base recovers evenly, otherwise k/h is integrated

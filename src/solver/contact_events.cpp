@@ -19,8 +19,8 @@ constexpr double kCoincidence = 4e-16;
 /// Rounding of a sliding velocity, relative to the speed of the part.
 constexpr double kSlipRounding = 1e-13;
 
-/// A sliding velocity this large, relative to the speed of the part, is not zero, nor is a sliding acceleration relative
-/// to that of the part.
+/// A sliding velocity this large, relative to the speed of the part, is not zero, nor is a sliding acceleration
+/// relative to that of the part.
 constexpr double kSurelySliding = 1e-8;
 
 /// Rounding of a length relative to those that it is made of.

@@ -21,7 +21,8 @@ namespace vibratory_alignment {
 /// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
 [[gnu::noinline]] double pair_step(const PairSeries& series, int order, double tolerance);
 
-/// Order of the series for a tolerance: the number of its digits and a constant, where a step costs least for its length.
+/// Order of the series for a tolerance: the number of its digits and a constant, where a step costs least for its
+/// length.
 int series_order(double tolerance);
 
 }  // namespace vibratory_alignment

@@ -39,7 +39,7 @@ Study thinned(const Study& study, const Thinning& thinning);
 struct FactRunOptions {
   FactSettings settings;
   Thinning thinning;
-  int threads = 1;        ///< of the sweeps; tables of touches are made by one
+  int threads = 1;    ///< of the sweeps; tables of touches are made by one
   int resamples = 0;  ///< of read_measure
   /// Told after each trial how many of all are done; asked some twenty times a second whether to go on.
   std::function<void(std::size_t done, std::size_t all)> progress;

@@ -27,7 +27,7 @@ struct TrialRow {
   Mode mode = Mode::none;
   double duration = none;  ///< of the alignment; not a number unless the part aligned
   double end_time = 0.0;
-  double nonimpact_time = 0.0;        ///< during which the mode was nonimpact
+  double nonimpact_time = 0.0;  ///< during which the mode was nonimpact
   State end;
   Spots<long> impacts{};                                  ///< touches out of flight
   Spots<double> first_impact = {none, none, none, none};  ///< times; not a number without an impact there

@@ -33,8 +33,8 @@ class Simulation {
   /// The segment that the motion is in; valid after the first advance().
   const Segment& segment() const;
 
-  /// Ends the current segment at time t inside it, so that changes enter at t. The next advance() starts there. With a t
-  /// outside nothing is cut: changes enter at the segment's end.
+  /// Ends the current segment at time t inside it, so that changes enter at t. The next advance() starts there. With a
+  /// t outside nothing is cut: changes enter at the segment's end.
   void cut(double t);
 
   /// Changes of the running excitation and press; call them between cut() and advance() or before the first advance().

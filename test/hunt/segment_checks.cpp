@@ -160,8 +160,7 @@ class SegmentCheck {
     const ContactState& contact = segment_.contacts[static_cast<std::size_t>(site)];
     if (contact.phase != Phase::outside) return {};
     const Recovery& base = segment_.recoveries[static_cast<std::size_t>(site)];
-    const double surface =
-        base.deformation > 0.0 ? Relaxation(system_, segment_, base).deformation_at(t_) : 0.0;
+    const double surface = base.deformation > 0.0 ? Relaxation(system_, segment_, base).deformation_at(t_) : 0.0;
     const double depth = depth_inside(site) - surface;
     const double at_once = system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0;
     if (depth > depth_noise() + at_once) return fault(Invariant::no_passing, "depth of a point that is outside", depth);

@@ -23,10 +23,10 @@ System test_system() {
 
 const std::vector<std::pair<Site, Face>>& contacts() {
   static const std::vector<std::pair<Site, Face>> all = {
-      {Site::a1, Face::bottom},     {Site::a1, Face::right_side}, {Site::a1, Face::left_side},
-      {Site::a2, Face::bottom},     {Site::a2, Face::right_side}, {Site::a2, Face::left_side},
-      {Site::b1, Face::top},        {Site::b1, Face::right_wall}, {Site::b1, Face::left_wall},
-      {Site::b2, Face::top},        {Site::b2, Face::right_wall}, {Site::b2, Face::left_wall},
+      {Site::a1, Face::bottom},      {Site::a1, Face::right_side}, {Site::a1, Face::left_side},
+      {Site::a2, Face::bottom},      {Site::a2, Face::right_side}, {Site::a2, Face::left_side},
+      {Site::b1, Face::top},         {Site::b1, Face::right_wall}, {Site::b1, Face::left_wall},
+      {Site::b2, Face::top},         {Site::b2, Face::right_wall}, {Site::b2, Face::left_wall},
       {Site::b1_floor, Face::floor}, {Site::b2_floor, Face::floor}};
   return all;
 }
@@ -59,22 +59,18 @@ double outline_depth(const System& s, const State& q, Site site, Face face) {
   const bool right = site == Site::a1 || site == Site::b1 || site == Site::b1_floor;
   if (site == Site::a1 || site == Site::a2) {
     const double ax = right ? s.slot_half_width : -s.slot_half_width;
-    const double along = (ax - q.x) * c + (0.0 - q.y) * n;     // (A - C).e1
-    const double up = -(ax - q.x) * n + (0.0 - q.y) * c;       // (A - C).e2
-    if (face == Face::bottom) return up + s.base_distance;      // above the bottom face
+    const double along = (ax - q.x) * c + (0.0 - q.y) * n;  // (A - C).e1
+    const double up = -(ax - q.x) * n + (0.0 - q.y) * c;    // (A - C).e2
+    if (face == Face::bottom) return up + s.base_distance;  // above the bottom face
     return face == Face::right_side ? s.half_width - along : along + s.half_width;
   }
   const double a = right ? s.half_width : -s.half_width;
   const double bx = q.x + a * c + s.base_distance * n, by = q.y + a * n - s.base_distance * c;  // C +- a e1 - b e2
   switch (face) {
-    case Face::right_wall:
-      return bx - s.slot_half_width;
-    case Face::left_wall:
-      return -s.slot_half_width - bx;
-    case Face::floor:
-      return -s.floor_depth - by;
-    default:
-      return -by;
+    case Face::right_wall: return bx - s.slot_half_width;
+    case Face::left_wall: return -s.slot_half_width - bx;
+    case Face::floor: return -s.floor_depth - by;
+    default: return -by;
   }
 }
 
@@ -82,18 +78,12 @@ double outline_depth(const System& s, const State& q, Site site, Face face) {
 Vec2 push_direction(const State& q, Face face) {
   const double c = std::cos(q.phi), s = std::sin(q.phi);
   switch (face) {
-    case Face::bottom:
-      return {-s, c};  // e2
-    case Face::right_side:
-      return {-c, -s};  // -e1
-    case Face::left_side:
-      return {c, s};  // e1
-    case Face::right_wall:
-      return {-1.0, 0.0};
-    case Face::left_wall:
-      return {1.0, 0.0};
-    default:
-      return {0.0, 1.0};
+    case Face::bottom: return {-s, c};       // e2
+    case Face::right_side: return {-c, -s};  // -e1
+    case Face::left_side: return {c, s};     // e1
+    case Face::right_wall: return {-1.0, 0.0};
+    case Face::left_wall: return {1.0, 0.0};
+    default: return {0.0, 1.0};
   }
 }
 
@@ -189,8 +179,9 @@ TEST_P(ContactFrameOf, slip_rate_is_that_of_a_motion_without_acceleration) {
   std::mt19937 random(16);
   for (int i = 0; i < 50; ++i) {
     const State q = random_state(random);
-    const double expected = rate(
-        [&, site = site, face = face](double t) { return contact_kinematics(system, later(q, t), site, face).slip_velocity; });
+    const double expected = rate([&, site = site, face = face](double t) {
+      return contact_kinematics(system, later(q, t), site, face).slip_velocity;
+    });
     EXPECT_NEAR(contact_kinematics(system, q, site, face).slip_rate, expected, kRateError);
   }
 }
@@ -235,16 +226,11 @@ TEST(ContactFrame, the_two_of_a_pair_mirror_each_other) {
   const std::pair<Site, Site> sites[] = {{Site::a1, Site::a2}, {Site::b1, Site::b2}, {Site::b1_floor, Site::b2_floor}};
   const auto mirrored_face = [](Face face) {
     switch (face) {
-      case Face::right_side:
-        return Face::left_side;
-      case Face::left_side:
-        return Face::right_side;
-      case Face::right_wall:
-        return Face::left_wall;
-      case Face::left_wall:
-        return Face::right_wall;
-      default:
-        return face;
+      case Face::right_side: return Face::left_side;
+      case Face::left_side: return Face::right_side;
+      case Face::right_wall: return Face::left_wall;
+      case Face::left_wall: return Face::right_wall;
+      default: return face;
     }
   };
   std::mt19937 random(19);

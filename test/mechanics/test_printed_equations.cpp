@@ -48,7 +48,11 @@ State random_state(std::mt19937& random, const System& system) {
 Touch touch_of(const System& system, const State& q) {
   const ContactKinematics k = contact_kinematics(system, q, Site::a1, Face::bottom);
   const double n = system.stiffness_y * k.depth + system.damping_y * k.depth_rate;
-  return {n, k.slip_velocity > 0.0 ? 1.0 : -1.0, k.lever.x * k.normal.y - k.lever.y * k.normal.x, k.depth, k.depth_rate,
+  return {n,
+          k.slip_velocity > 0.0 ? 1.0 : -1.0,
+          k.lever.x * k.normal.y - k.lever.y * k.normal.x,
+          k.depth,
+          k.depth_rate,
           k.slip_velocity};
 }
 
@@ -61,9 +65,10 @@ Reaction model(const System& system, const State& q) {
   a1.slip = system.friction == 0.0 ? Slip::none : touch_of(system, q).sign > 0.0 ? Slip::plus : Slip::minus;
   Forces f;
   evaluate_forces(system, q, {}, contacts, f);
-  return {f.ax + system.x.damping * q.vx + system.x.stiffness * (q.x - system.x.anchor),
-          f.ay + system.y.damping * q.vy + system.y.stiffness * (q.y - system.y.anchor),
-          system.phi.inertia * f.alpha + system.phi.damping * q.omega + system.phi.stiffness * (q.phi - system.phi.anchor)};
+  return {
+      f.ax + system.x.damping * q.vx + system.x.stiffness * (q.x - system.x.anchor),
+      f.ay + system.y.damping * q.vy + system.y.stiffness * (q.y - system.y.anchor),
+      system.phi.inertia * f.alpha + system.phi.damping * q.omega + system.phi.stiffness * (q.phi - system.phi.anchor)};
 }
 
 /// The model's reaction written out as in docs/paper.md.

@@ -19,7 +19,8 @@ namespace {
 using test::plain;
 using test::scene_of;
 
-/// Deepest penetration of any contact that the scene calls for, from above; negative: the gap. Written from the outlines.
+/// Deepest penetration of any contact that the scene calls for, from above; negative: the gap. Written from the
+/// outlines.
 double penetration(const System& s, double x, double y, double phi) {
   const double c = std::cos(phi), n = std::sin(phi);
   double deepest = -INFINITY;
@@ -57,7 +58,8 @@ TEST(TouchHeight, is_where_the_first_contact_closes) {
       const std::optional<double> y = touch_height(system, x, phi);
       if (!y) {
         // nothing to touch however far down: then only sides that are vertical or the slot's air are below
-        for (double below = 2.0; below > -1.0; below -= 0.05) ASSERT_LE(penetration(system, x, below, phi), 0.0) << contacts;
+        for (double below = 2.0; below > -1.0; below -= 0.05)
+          ASSERT_LE(penetration(system, x, below, phi), 0.0) << contacts;
         continue;
       }
       ++found;
@@ -75,7 +77,8 @@ TEST(TouchHeight, of_an_edge_on_the_bottom_face) {
   const System s = system_of("e");
   EXPECT_NEAR(*touch_height(s, 0.2, 0.0), s.base_distance, 1e-16);
   const double phi = 0.02;
-  EXPECT_NEAR(*touch_height(s, 0.2, phi) * std::cos(phi), s.base_distance - (s.slot_half_width - 0.2) * std::sin(phi), 1e-15);
+  EXPECT_NEAR(*touch_height(s, 0.2, phi) * std::cos(phi), s.base_distance - (s.slot_half_width - 0.2) * std::sin(phi),
+              1e-15);
 }
 
 // In the slot, flat: both edges pass beside the part.
@@ -117,7 +120,8 @@ TEST(PressingForce, without_a_height_of_touch_is_refused) {
 
 TEST(Equilibrium, without_anything_to_rest_on_is_refused) {
   EXPECT_THROW(make_system(scene_of(plain, {"initial.x=0.0", "initial.phi=0.0", "initial.y=null",
-                                            "gripper.pressing_force=null", "gripper.anchor.y=0.5"})), SceneError);
+                                            "gripper.pressing_force=null", "gripper.anchor.y=0.5"})),
+               SceneError);
 }
 
 /// Balance of all forces at rest, written from MODEL.md with every contact point by itself: x, y and moment.
@@ -128,7 +132,8 @@ struct Balance {
   double normal;
 };
 Balance balance(const System& s, const State& q, double t) {
-  Balance b{-s.x.stiffness * (q.x - s.x.anchor), -(q.y - s.y.anchor) - s.weight, -s.phi.stiffness * (q.phi - s.phi.anchor), 0, 0};
+  Balance b{-s.x.stiffness * (q.x - s.x.anchor), -(q.y - s.y.anchor) - s.weight,
+            -s.phi.stiffness * (q.phi - s.phi.anchor), 0, 0};
   const double c = std::cos(q.phi), n = std::sin(q.phi);
   const auto push = [&](double px, double py, double nx, double ny, double depth) {
     const double force = (s.stiffness_y * ny * ny + s.stiffness_x * nx * nx) * depth;
@@ -146,9 +151,12 @@ Balance balance(const System& s, const State& q, double t) {
     const double bottom = up + s.base_distance, right = s.half_width - along, left = s.half_width + along;
     const double depth = std::min({bottom, right, left});
     if (s.contacts.edges && depth > 0.0) {
-      if (depth == bottom) push(ax, 0.0, -n, c, depth);
-      else if (depth == right) push(ax, 0.0, -c, -n, depth);
-      else push(ax, 0.0, c, n, depth);
+      if (depth == bottom)
+        push(ax, 0.0, -n, c, depth);
+      else if (depth == right)
+        push(ax, 0.0, -c, -n, depth);
+      else
+        push(ax, 0.0, c, n, depth);
     }
     const double bx = q.x + side * s.half_width * c + s.base_distance * n;
     const double by = q.y + side * s.half_width * n - s.base_distance * c;
@@ -192,11 +200,13 @@ TEST(Equilibrium, friction_holds_the_part_in_place) {
   }
 }
 
-// REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l - x).
+// REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
+// x).
 TEST(Equilibrium, of_r1_is_its_closed_form) {
-  const Scene scene = scene_of(plain, {"initial.x=0.2", "gripper.anchor.x=0.2", "gripper.anchor.phi=0.0", "friction.coefficient=0.2",
-                                       "gripper.stiffness.phi=60", "gripper.pressing_force=0.2", "initial.y=null",
-                                       "initial.phi=null", "base.stiffness={y: 2500}"});
+  const Scene scene =
+      scene_of(plain, {"initial.x=0.2", "gripper.anchor.x=0.2", "gripper.anchor.phi=0.0", "friction.coefficient=0.2",
+                       "gripper.stiffness.phi=60", "gripper.pressing_force=0.2", "initial.y=null", "initial.phi=null",
+                       "base.stiffness={y: 2500}"});
   const System s = make_system(scene);
   // the base gives way by F/k, and by that the axial spring unloads: F = f0 - F/k
   const double force = 0.2 / (1.0 + 1.0 / 2500.0);
@@ -248,8 +258,8 @@ TEST(Equilibrium, names_where_there_is_none_in_the_units_of_the_scene) {
 }
 
 TEST(Equilibrium, velocities_of_locked_motions_are_none) {
-  const System s = make_system(scene_of(plain, {"initial.vx=0.3", "initial.omega=0.4", "initial.vy=0.5", "part.inertia=null",
-                                                "gripper.stiffness.x=null"}));
+  const System s = make_system(scene_of(plain, {"initial.vx=0.3", "initial.omega=0.4", "initial.vy=0.5",
+                                                "part.inertia=null", "gripper.stiffness.x=null"}));
   EXPECT_EQ(s.start.vx, 0.0);
   EXPECT_EQ(s.start.omega, 0.0);
   EXPECT_EQ(s.start.vy, 0.5);

@@ -49,7 +49,8 @@ void collect(const YAML::Node& node, const std::string& path, std::set<std::stri
 
 /// With the full dimensionless scene, whose excitation is a chirp, they use every key between them.
 const char* const chirp =
-    "excitation={amplitude: 1, frequency: 20, phase: 0, waveform: chirp, end_frequency: 30, sweep_time: 1, direction: y}";
+    "excitation={amplitude: 1, frequency: 20, phase: 0, waveform: chirp, end_frequency: 30, sweep_time: 1, direction: "
+    "y}";
 const char* const si = R"(
 units: si
 part: {mass: 0.1, half_width: 1.0e-3, base_distance: 2.0e-3}

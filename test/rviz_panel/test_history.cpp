@@ -27,7 +27,8 @@ TEST(HistoryTest, LongRunsKeepTheirPeaksTheirEndAndTheirOrder) {
   EXPECT_EQ(points.back().time, kCount - 1.0);
   EXPECT_EQ(points.back().misalignment, 5.0 + kCount - 1.0);
   const auto time_of = [&](double HistoryPoint::*force, double peak) {
-    const auto found = std::find_if(points.begin(), points.end(), [&](const HistoryPoint& p) { return p.*force == peak; });
+    const auto found =
+        std::find_if(points.begin(), points.end(), [&](const HistoryPoint& p) { return p.*force == peak; });
     return found == points.end() ? -1.0 : found->time;
   };
   // a point stands for at most 100000/50 = 2000 samples, and bears the time of the last

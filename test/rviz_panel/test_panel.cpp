@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QLineEdit>
-#include <QProgressBar>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/ros.h>
 #include <rviz/config.h>
 #include <std_srvs/Trigger.h>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLineEdit>
+#include <QProgressBar>
 
 #include "panel_clicks.h"
 #include "rviz_panel/aligner_panel.h"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <QFile>
 #include <ros/ros.h>
 #include <rviz/visualization_frame.h>
+#include <QFile>
 
 #include "panel_clicks.h"
 

@@ -14,9 +14,9 @@ constexpr double kPhi = 0.2, kOmega = 1.3, kLeft = 1e-3;
 
 /// C1 = 400, C2 = 1200, H1 = 80, H2 = 100.
 System turning_system(const char* setting = "name=none") {
-  return make_system(test::scene_of(
-      test::plain,
-      {"base={stiffness: {x: 1200, y: 400}, damping: {x: 100, y: 80}, recovery: true}", "gripper.stiffness.phi=0", setting}));
+  return make_system(
+      test::scene_of(test::plain, {"base={stiffness: {x: 1200, y: 400}, damping: {x: 100, y: 80}, recovery: true}",
+                                   "gripper.stiffness.phi=0", setting}));
 }
 
 /// The integral of k/h = (400 c^2 + 1200 s^2)/(80 c^2 + 100 s^2) under the bottom, with c and s of kPhi + kOmega t, by
@@ -34,7 +34,8 @@ PlacedState placed(double t) { return PlacedState({0.2, 0.9, kPhi + kOmega * t, 
 double after_steps(const System& system, double end, int count) {
   Recovery left{kLeft, Face::bottom};
   for (int i = 0; i < count; ++i)
-    left.deformation = deformation_between(system, left, placed(end * i / count), placed(end * (i + 1) / count), end / count);
+    left.deformation =
+        deformation_between(system, left, placed(end * i / count), placed(end * (i + 1) / count), end / count);
   return left.deformation;
 }
 

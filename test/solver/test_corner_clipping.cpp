@@ -52,7 +52,8 @@ TEST(CornerClipping, a_sliding_corner_touches_however_little_it_reaches_below) {
         const double x = kSlot - (kBase - *s.initial.y * std::cos(phi)) / std::sin(phi);
         EXPECT_NEAR(r.first_contact->time, (x - start) / speed, 4e-15 / speed / std::sin(phi)) << depth;
         EXPECT_NEAR(r.first_contact->slip_velocity, speed * std::cos(phi), 1e-13 * speed);
-        EXPECT_EQ(test::total_impacts(test::run(sliding_by(phi, -depth, speed, start))), 0) << "phi " << phi << " gap " << depth;
+        EXPECT_EQ(test::total_impacts(test::run(sliding_by(phi, -depth, speed, start))), 0)
+            << "phi " << phi << " gap " << depth;
       }
 }
 
@@ -95,7 +96,8 @@ TEST(CornerClipping, a_turning_corner_touches_however_little_it_reaches_over) {
       // before the corner by the angle at which the face (at b or a from C) reaches the edge's radius
       const double radius = std::hypot(kHalfWidth, kBase) - reach, face = omega > 0.0 ? kHalfWidth : kBase;
       const double early = std::acos(face / radius) - std::acos(face / std::hypot(kHalfWidth, kBase));
-      EXPECT_NEAR(r.first_contact->time, (0.35 + early) / std::abs(omega), 2e-15 / std::abs(omega)) << omega << " " << reach;
+      EXPECT_NEAR(r.first_contact->time, (0.35 + early) / std::abs(omega), 2e-15 / std::abs(omega))
+          << omega << " " << reach;
       EXPECT_EQ(test::total_impacts(test::run(turning_by(-reach, omega))), 0) << omega << " " << reach;
     }
 }
@@ -103,7 +105,8 @@ TEST(CornerClipping, a_turning_corner_touches_however_little_it_reaches_over) {
 // Fast, so that a sampled search would step over it.
 TEST(CornerClipping, many_turns_in_one_flight_miss_nothing) {
   // edges lie outside the circle of the corners but inside that of the side faces' upper part, which has no end
-  Scene s = test::scene_of(drifting, {"initial.omega=40", "trial.time_limit=5", "initial.y=3.0", "gripper.anchor.y=3.0", "initial.x=0.2"});
+  Scene s = test::scene_of(
+      drifting, {"initial.omega=40", "trial.time_limit=5", "initial.y=3.0", "gripper.anchor.y=3.0", "initial.x=0.2"});
   const TrialResult r = test::run(s);
   ASSERT_TRUE(r.first_contact);
   // the first face that reaches an edge: |u| = a of the turning strip; found here on a fine grid of angles

@@ -36,27 +36,36 @@ void expect_constant(Scene scene, long impacts) {
 }
 
 TEST(EnergyConservation, with_edges_and_corners) {
-  expect_constant(test::scene_of(test::plain, {"friction=null", "base={stiffness: {y: 4100}}", "contacts=[edges, corners]",
-                                 "gripper={stiffness: {x: 9, phi: 60}, anchor: {x: 0.5, y: 0.8}}",
-                                 "excitation.amplitude=0", "initial.x=0.5", "initial.y=0.96", "initial.phi=-0.004", "trial.aligned_depth=5"}), 3000);
+  expect_constant(
+      test::scene_of(test::plain,
+                     {"friction=null", "base={stiffness: {y: 4100}}", "contacts=[edges, corners]",
+                      "gripper={stiffness: {x: 9, phi: 60}, anchor: {x: 0.5, y: 0.8}}", "excitation.amplitude=0",
+                      "initial.x=0.5", "initial.y=0.96", "initial.phi=-0.004", "trial.aligned_depth=5"}),
+      3000);
 }
 
 // ... and with friction and dampers it can only fall.
 TEST(EnergyConservation, energy_only_falls_without_excitation) {
   for (const char* law : {"friction={coefficient: 0.3}", "friction={coefficient: 0.3, regularization: 1.0e-3}"}) {
     // on an isotropic base, whose springs belong to the energy; what a release drops is gone as well
-    const Scene scene = test::scene_of(test::plain, {law, "base={stiffness: {y: 4100}, damping: {y: 17}}", "contacts=[edges, corners]",
-                                       "gripper={stiffness: {x: 0.9, phi: 25}, damping: {x: 0.01, y: 0.01, phi: 0.1}, anchor: {x: 0.3, y: 0.7}}",
-                                       "excitation.amplitude=0", "initial={x: 0.28, y: 1.0, phi: -0.05, vx: 0.5}"});
+    const Scene scene = test::scene_of(
+        test::plain,
+        {law, "base={stiffness: {y: 4100}, damping: {y: 17}}", "contacts=[edges, corners]",
+         "gripper={stiffness: {x: 0.9, phi: 25}, damping: {x: 0.01, y: 0.01, phi: 0.1}, anchor: {x: 0.3, y: 0.7}}",
+         "excitation.amplitude=0", "initial={x: 0.28, y: 1.0, phi: -0.05, vx: 0.5}"});
     double before = INFINITY;
-    test::run(scene, [&](const Segment& g) {
-      const double now = energy(scene, g);
-      ASSERT_LE(now, before + 1e-12);
-      // a release with d > 0 drops the base's energy, a reload brings what is left back
-      double loaded = 0.0;
-      for (int i = 0; i < g.event_count; ++i) loaded += g.events[static_cast<std::size_t>(i)].kind == EventKind::reload;
-      before = loaded > 0.0 ? INFINITY : now;
-    }, 3.0);
+    test::run(
+        scene,
+        [&](const Segment& g) {
+          const double now = energy(scene, g);
+          ASSERT_LE(now, before + 1e-12);
+          // a release with d > 0 drops the base's energy, a reload brings what is left back
+          double loaded = 0.0;
+          for (int i = 0; i < g.event_count; ++i)
+            loaded += g.events[static_cast<std::size_t>(i)].kind == EventKind::reload;
+          before = loaded > 0.0 ? INFINITY : now;
+        },
+        3.0);
   }
 }
 

@@ -54,13 +54,17 @@ const std::vector<Case>& cases() {
       {"recovery_slow", {"base={stiffness: {x: 300, y: 600}, damping: {x: 40, y: 80}, recovery: true}"}},
       {"recovery_and_walls", {"base.recovery=true", "contacts=[edges, corners, walls]", "slot.depth=0.3"}},
       {"walls_and_floor", {"contacts=[edges, corners, walls]", "slot.depth=0.1", "gripper.pressing_force=0.4"}},
-      {"walls_without_edges", {"contacts=[corners, walls]", "initial.x=0.05", "initial.y=0.95", "initial.phi=-0.2",
-                               "gripper.anchor.phi=-0.3", "gripper.pressing_force=null", "gripper.anchor.y=0.3"}},
-      {"wedged_in_the_slot", {"contacts=[edges, corners, walls]", "slot={clearance: 0.02, depth: 0.4}", "initial={x: 0.005, y: 0.8, phi: 0.01}",
-                              "gripper.anchor.phi=0.15", "gripper.pressing_force=null", "gripper.anchor.y=0.4"}},
+      {"walls_without_edges",
+       {"contacts=[corners, walls]", "initial.x=0.05", "initial.y=0.95", "initial.phi=-0.2", "gripper.anchor.phi=-0.3",
+        "gripper.pressing_force=null", "gripper.anchor.y=0.3"}},
+      {"wedged_in_the_slot",
+       {"contacts=[edges, corners, walls]", "slot={clearance: 0.02, depth: 0.4}",
+        "initial={x: 0.005, y: 0.8, phi: 0.01}", "gripper.anchor.phi=0.15", "gripper.pressing_force=null",
+        "gripper.anchor.y=0.4"}},
       {"edges_only", {"contacts=[edges]"}},
-      {"corners_only", {"contacts=[corners]", "initial.y=0.93", "initial.phi=-0.03", "gripper.pressing_force=null",
-                        "gripper.anchor.y=0.75"}},
+      {"corners_only",
+       {"contacts=[corners]", "initial.y=0.93", "initial.phi=-0.03", "gripper.pressing_force=null",
+        "gripper.anchor.y=0.75"}},
       {"square", {"excitation.waveform=square"}},
       {"triangle", {"excitation.waveform=triangle", "excitation.phase=0.7"}},
       {"chirp", {"excitation={amplitude: 1, frequency: 5, waveform: chirp, end_frequency: 35, sweep_time: 2}"}},
@@ -68,8 +72,10 @@ const std::vector<Case>& cases() {
        {"excitation=[{amplitude: 1, frequency: 20}, {amplitude: 0.4, frequency: 13, direction: x, phase: 1}, "
         "{amplitude: 0.3, frequency: 8, direction: phi, waveform: triangle}]"}},
       {"all_waveforms",
-       {"excitation=[{amplitude: 0.6, frequency: 20, waveform: square}, {amplitude: 0.5, frequency: 17, waveform: triangle}, "
-        "{amplitude: 0.2, frequency: 6, direction: x, waveform: square}, {amplitude: 0.3, frequency: 3, waveform: chirp, "
+       {"excitation=[{amplitude: 0.6, frequency: 20, waveform: square}, {amplitude: 0.5, frequency: 17, waveform: "
+        "triangle}, "
+        "{amplitude: 0.2, frequency: 6, direction: x, waveform: square}, {amplitude: 0.3, frequency: 3, waveform: "
+        "chirp, "
         "end_frequency: 40, sweep_time: 3, direction: phi}]"}},
       {"pressed_without_impacts", {"gripper.pressing_force=2.0"}},
       {"weight", {"weight=0.5"}},
@@ -79,11 +85,16 @@ const std::vector<Case>& cases() {
       {"light_tilt", {"part.inertia=1.0e-5", "trial.time_limit=1"}},
       {"fast_start", {"initial={x: 0.2, y: 0.95, phi: 0.1, vx: -0.7, vy: -1.5, omega: 3}"}},
       {"from_below_the_surface", {"initial={x: 0.2, y: 0.87, phi: 0.0}"}},
-      {"spinning", {"initial={x: 0.1, y: 1.4, phi: 0.5, vx: 0.1, vy: -0.5, omega: 7}", "gripper.stiffness.phi=0.5", "gripper.damping.phi=0"}},
-      {"tilted_far", {"initial={x: 0.1, y: 1.3, phi: 1.2}", "gripper.anchor.phi=1.0", "gripper.pressing_force=null", "gripper.anchor.y=0.3"}},
+      {"spinning",
+       {"initial={x: 0.1, y: 1.4, phi: 0.5, vx: 0.1, vy: -0.5, omega: 7}", "gripper.stiffness.phi=0.5",
+        "gripper.damping.phi=0"}},
+      {"tilted_far",
+       {"initial={x: 0.1, y: 1.3, phi: 1.2}", "gripper.anchor.phi=1.0", "gripper.pressing_force=null",
+        "gripper.anchor.y=0.3"}},
       {"flat_on_edge_and_corner", {"initial={x: 0.3, y: 1.0, phi: 0.0}"}},
-      {"flat_on_the_floor", {"contacts=[edges, corners, walls]", "slot.depth=0.3", "initial={x: 0.02, y: 0.7, phi: 0}",
-                             "gripper.pressing_force=null", "gripper.anchor.y=0.1", "trial.aligned_depth=0.29"}},
+      {"flat_on_the_floor",
+       {"contacts=[edges, corners, walls]", "slot.depth=0.3", "initial={x: 0.02, y: 0.7, phi: 0}",
+        "gripper.pressing_force=null", "gripper.anchor.y=0.1", "trial.aligned_depth=0.29"}},
       {"low_frequency", {"excitation.frequency=0.9", "gripper.pressing_force=0.5", "trial.time_limit=10"}},
       {"high_frequency", {"excitation.frequency=300", "excitation.amplitude=5", "trial.time_limit=2"}},
   };
@@ -91,14 +102,17 @@ const std::vector<Case>& cases() {
 }
 
 class MotionLawsOf : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(scene, MotionLawsOf, testing::ValuesIn(cases()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(scene, MotionLawsOf, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
 
 TEST_P(MotionLawsOf, hold_in_every_segment) {
   Scene scene = test::scene_of(full, GetParam().settings);
   scene.name = GetParam().name;
   const TrialResult result = test::checked_run(scene);
   EXPECT_NE(result.outcome, Outcome::failed) << result.failure;
-  EXPECT_GT(result.impacts[0] + result.impacts[1] + result.impacts[2] + result.impacts[3] + (result.mode == Mode::nonimpact), 0);
+  EXPECT_GT(
+      result.impacts[0] + result.impacts[1] + result.impacts[2] + result.impacts[3] + (result.mode == Mode::nonimpact),
+      0);
   // truncation and the roundoff of a stiff base
   EXPECT_LT(result.energy->residual, std::max(1e-9, 1e-2 * scene.solver.tolerance));
 }

@@ -39,7 +39,8 @@ TEST_P(ReferenceCases, end_state_at_the_usual_tolerance) {
 // What remains is that the scene's numbers are rounded: 1e-16 in each of some twenty, times the amplification.
 TEST_P(ReferenceCases, end_state_to_roundoff) {
   const ReferenceCase& c = GetParam();
-  const double roundoff = 20.0 * 2.2e-16 * std::max(1.0, static_cast<double>(c.amplification)) + static_cast<double>(c.agreement);
+  const double roundoff =
+      20.0 * 2.2e-16 * std::max(1.0, static_cast<double>(c.amplification)) + static_cast<double>(c.agreement);
   EXPECT_LT(distance(run(scene_of_reference(c), 1e-13).final_state, c.end), 4.0 * roundoff);
 }
 
@@ -69,7 +70,9 @@ TEST_P(ReferenceCases, error_follows_the_tolerance) {
 /// A random case in the reach of the reference integrator: sines, edges and corners, dry friction.
 ReferenceCase random_case(unsigned seed) {
   std::mt19937 random(seed);
-  const auto u = [&](double low, double high) { return static_cast<Real>(std::uniform_real_distribution<double>(low, high)(random)); };
+  const auto u = [&](double low, double high) {
+    return static_cast<Real>(std::uniform_real_distribution<double>(low, high)(random));
+  };
   ReferenceCase c;
   reference::ReferenceParameters& p = c.parameters;
   p.corners = seed % 2 == 0;

@@ -39,7 +39,8 @@ TEST(Series, value) {
   for (int order = 0; order <= kMaxOrder; ++order) {
     const Series g = random_series(random, order);
     for (const double t : {0.0, 0.3, -0.7, 1.0})
-      EXPECT_NEAR(value_at(g, order, t), static_cast<double>(exact_value(g, order, t)), 2.0 * noise(g, order, std::abs(t)));
+      EXPECT_NEAR(value_at(g, order, t), static_cast<double>(exact_value(g, order, t)),
+                  2.0 * noise(g, order, std::abs(t)));
   }
 }
 
@@ -89,7 +90,8 @@ double sampled_maximum(const Series& g, int order, double from, double to) {
   double low = std::max(from, at - (to - from) / samples), high = std::min(to, at + (to - from) / samples);
   for (int i = 0; i < 80; ++i) {
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-    (exact_value(g, order, a) < exact_value(g, order, b) ? low : high) = exact_value(g, order, a) < exact_value(g, order, b) ? a : b;
+    (exact_value(g, order, a) < exact_value(g, order, b) ? low : high) =
+        exact_value(g, order, a) < exact_value(g, order, b) ? a : b;
   }
   return static_cast<double>(std::max(best, exact_value(g, order, 0.5 * (low + high))));
 }
@@ -103,7 +105,8 @@ TEST(LargestValue, of_random_series) {
     double from = u(random), to = u(random);
     if (from > to) std::swap(from, to);
     if (i % 2 == 0) from = 0.0;
-    EXPECT_NEAR(largest_value(g, order, from, to), sampled_maximum(g, order, from, to), 20.0 * noise(g, order, 1.0)) << i;
+    EXPECT_NEAR(largest_value(g, order, from, to), sampled_maximum(g, order, from, to), 20.0 * noise(g, order, 1.0))
+        << i;
   }
 }
 

@@ -33,9 +33,8 @@ class Folder {
 inline Study study_of(const std::string& text, const std::string& scene_text = plain) {
   static const Folder folder;
   folder.write("scene.yaml", scene_text);
-  return load_study(folder.write("study.yaml", "scene: scene.yaml\n" + text), [](const std::string& name) {
-    return std::string(SCENE_DIR) + "/" + name + ".yaml";
-  });
+  return load_study(folder.write("study.yaml", "scene: scene.yaml\n" + text),
+                    [](const std::string& name) { return std::string(SCENE_DIR) + "/" + name + ".yaml"; });
 }
 
 }  // namespace vibratory_alignment::test

@@ -27,7 +27,8 @@ TEST(Grid, FirstDimensionChangesSlowest) {
   ASSERT_EQ(trial_count(study), 6u);
   EXPECT_EQ(varied_names(study), (std::vector<std::string>{"initial.x", "friction.coefficient"}));
   const double expected[6][2] = {{0.2, 0.1}, {0.2, 0.2}, {0.2, 0.3}, {0.3, 0.1}, {0.3, 0.2}, {0.3, 0.3}};
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(numbers(study, i), (std::vector<double>{expected[i][0], expected[i][1]}));
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(numbers(study, i), (std::vector<double>{expected[i][0], expected[i][1]}));
 }
 
 TEST(Grid, KeysOfOneEntryChangeTogether) {
@@ -68,7 +69,8 @@ TEST(Grid, WordsListsMapsAndNullAreValuesToo) {
       "vary: [{solver.name: [event, implicit]}, {contacts: [[edges], [edges, corners]]},"
       " {friction: [null, {coefficient: 0.1}]}]");
   // lists and maps of several lines come to one as well
-  const Study lines = study_of("vary:\n  - contacts:\n    - - edges\n      - corners\n  - friction:\n    -\n      coefficient: 0.3\n");
+  const Study lines =
+      study_of("vary:\n  - contacts:\n    - - edges\n      - corners\n  - friction:\n    -\n      coefficient: 0.3\n");
   EXPECT_EQ(values_at(lines, 0)[0].text, "[edges, corners]");
   EXPECT_EQ(values_at(lines, 0)[1].text, "{coefficient: 0.3}");
   EXPECT_EQ(values_at(study_of("vary: {name: [short, \"of two\\nlines\"]}"), 1)[0].text.find('\n'), std::string::npos);
@@ -85,7 +87,8 @@ TEST(Grid, WordsListsMapsAndNullAreValuesToo) {
 
 TEST(Samples, AreTheSameAtEveryPointOfTheGrid) {
   const Study study = study_of(
-      "vary: [{gripper.pressing_force: [0.1, 0.2]}, {excitation.phase: {from: 0, to: 6}}, {initial.x: {from: -1, to: 1, as: offset}}]\n"
+      "vary: [{gripper.pressing_force: [0.1, 0.2]}, {excitation.phase: {from: 0, to: 6}}, {initial.x: {from: -1, to: "
+      "1, as: offset}}]\n"
       "samples: {count: 5, seed: 3}");
   ASSERT_EQ(trial_count(study), 10u);
   EXPECT_EQ(varied_names(study)[2], "initial.x offset");
@@ -101,14 +104,15 @@ TEST(Samples, AreTheSameAtEveryPointOfTheGrid) {
 
 TEST(Samples, KeysOfOneEntryShareTheirCoordinate) {
   const Study study = study_of(
-      "vary: [{initial.x: {from: 0.2, to: 0.4}, gripper.anchor.x: {from: 1, to: 3}}]\nsamples: {count: 7, method: random}");
+      "vary: [{initial.x: {from: 0.2, to: 0.4}, gripper.anchor.x: {from: 1, to: 3}}]\nsamples: {count: 7, method: "
+      "random}");
   for (std::size_t i = 0; i < 7; ++i)
     EXPECT_NEAR((numbers(study, i)[0] - 0.2) / 0.2, (numbers(study, i)[1] - 1.0) / 2.0, 1e-14);
 }
 
 TEST(Samples, LogarithmicOnesLieEvenlyInTheLogarithm) {
-  const Study study = study_of(
-      "vary: {base.stiffness.y: {from: 1.0e2, to: 1.0e10, spacing: log}}\nsamples: {count: 256}");
+  const Study study =
+      study_of("vary: {base.stiffness.y: {from: 1.0e2, to: 1.0e10, spacing: log}}\nsamples: {count: 256}");
   std::set<int> parts;
   for (std::size_t i = 0; i < 256; ++i) parts.insert(static_cast<int>(32.0 * (std::log10(numbers(study, i)[0]) - 2.0)));
   EXPECT_EQ(parts.size(), 256u);
@@ -121,7 +125,8 @@ TEST(Sobol, EveryCoordinateIsFilledEvenly) {
       for (const std::size_t count : {std::size_t{16}, std::size_t{1024}}) {
         std::set<int> parts;
         for (std::size_t i = 0; i < count; ++i)
-          parts.insert(static_cast<int>(static_cast<double>(count) * unit_sample(SampleMethod::sobol, seed, 12, i)[coordinate]));
+          parts.insert(
+              static_cast<int>(static_cast<double>(count) * unit_sample(SampleMethod::sobol, seed, 12, i)[coordinate]));
         EXPECT_EQ(parts.size(), count) << "seed " << seed << ", coordinate " << coordinate;
       }
 }
@@ -142,13 +147,14 @@ TEST(Sobol, FirstTwoCoordinatesFillEveryRectangle) {
 // Published points of the sequence (Joe and Kuo): unshifted, in Gray-code order 0, 1/2, 3/4, 1/4, 3/8, ... The shift is
 // an exclusive or, so differences from point 0 stay.
 TEST(Sobol, IsTheSequenceOfSobol) {
-  const double expected[6][3] = {{0, 0, 0},         {0.5, 0.5, 0.5},       {0.75, 0.25, 0.25},
+  const double expected[6][3] = {{0, 0, 0},          {0.5, 0.5, 0.5},       {0.75, 0.25, 0.25},
                                  {0.25, 0.75, 0.75}, {0.375, 0.375, 0.625}, {0.875, 0.875, 0.125}};
   const auto bits = [](double u) { return static_cast<std::uint64_t>(std::ldexp(u, 53)); };
   const std::vector<double> origin = unit_sample(SampleMethod::sobol, 9, 3, 0);
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_EQ(bits(unit_sample(SampleMethod::sobol, 9, 3, i)[c]) ^ bits(origin[c]), bits(expected[i][c])) << i << ' ' << c;
+      EXPECT_EQ(bits(unit_sample(SampleMethod::sobol, 9, 3, i)[c]) ^ bits(origin[c]), bits(expected[i][c]))
+          << i << ' ' << c;
 }
 
 TEST(Sobol, SeedsShiftTheSequence) {

@@ -54,29 +54,34 @@ TEST(StudyFile, FaultsAreRefusedAtTheirPlace) {
       {"vary: {initial.x: 0.3}", "vary.initial.x: 0.3: ", "a list of values, or a range"},
       {"vary: {initial.x: []}", "vary.initial.x: ", "a list of values"},
       {"vary: [{initial.x: [0.2, 0.3], initial.phi: [0]}]", "vary.0.initial.phi: ", "equally many"},
-      {"vary: [{initial.x: [0.2], initial.phi: {from: 0, to: 1}}]\nsamples: {count: 2}", "vary.0.initial.phi: ", "sampled"},
+      {"vary: [{initial.x: [0.2], initial.phi: {from: 0, to: 1}}]\nsamples: {count: 2}",
+       "vary.0.initial.phi: ", "sampled"},
       {"vary: {initial.x: {from: 0, count: 3}}", "vary.initial.x.to: missing", "a number"},
       {"vary: {initial.x: {from: 0, to: 1, count: 1}}", "vary.initial.x.count: 1: ", "from 2"},
       {"vary: {initial.x: {from: 0, to: 1, count: 2.5}}", "vary.initial.x.count: 2.5: ", "whole"},
       {"vary: {initial.x: {from: nan, to: 1, count: 2}}", "vary.initial.x.from: nan: ", "a number"},
       {"vary: {initial.x: {from: 0, to: 1, count: 3, spacing: log}}", "vary.initial.x.from: 0: ", "> 0"},
-      {"vary: {initial.x: {from: 0, to: 1, count: 3, spacing: cubic}}", "vary.initial.x.spacing: cubic: ", "linear or log"},
+      {"vary: {initial.x: {from: 0, to: 1, count: 3, spacing: cubic}}",
+       "vary.initial.x.spacing: cubic: ", "linear or log"},
       {"vary: {initial.x: {from: 0, to: 1, count: 3, as: delta}}", "vary.initial.x.as: delta: ", "value or offset"},
       {"vary: {initial.x: {from: 0, to: 1, coun: 3}}", "vary.initial.x.coun: ", "did you mean count?"},
       {"vary: {initial.x: {from: 0, to: 1}}", "samples: missing", "count"},
       {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {}", "samples.count: missing", "whole number"},
       {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 0}", "samples.count: 0: ", "whole number"},
-      {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 4, method: halton}", "samples.method: halton: ", "sobol or random"},
+      {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 4, method: halton}",
+       "samples.method: halton: ", "sobol or random"},
       {"vary: {initial.x: {from: 0, to: 1}}\nsamples: {count: 4, seed: -1}", "samples.seed: -1: ", "from 0"},
       {"vary: {initial.x: [1]}\nsamples: {count: 4}", "samples: ", "nothing is sampled"},
       {"vary: [{initial.x: [1]}, {initial.x: [2]}]", "vary.1.initial.x: ", "twice"},
-      {"vary: [{gripper.stiffness.phi: [1]}, {gripper.stiffness: [{phi: 2}]}]", "vary.1.gripper.stiffness: ", "part of"},
+      {"vary: [{gripper.stiffness.phi: [1]}, {gripper.stiffness: [{phi: 2}]}]",
+       "vary.1.gripper.stiffness: ", "part of"},
       {"vary: {initial.x: [1, 2], initial.phi: [0, 1]}", "vary: ", "must be a list"},
       {"vary: []", "vary: ", "list of at least one"},
       {"vary: [{}]", "vary: ", "must name a key"},
       {"set: {initial.x.y: 3}", "set.initial.x.y: ", "neither a map nor a list"},
       {"set: {nosuch: null}", "set.nosuch: ", "no such key"},
-      {"vary: [{initial.x: {from: 0, to: 1, count: 1000000000}}, {initial.phi: {from: 0, to: 1, count: 10000000}}]", "vary: ", "1e15"},
+      {"vary: [{initial.x: {from: 0, to: 1, count: 1000000000}}, {initial.phi: {from: 0, to: 1, count: 10000000}}]",
+       "vary: ", "1e15"},
   };
   for (const Fault& c : cases) {
     const std::vector<std::string> faults = faults_of(c.text);
@@ -87,7 +92,8 @@ TEST(StudyFile, FaultsAreRefusedAtTheirPlace) {
 }
 
 TEST(StudyFile, AllFaultsAreToldAtOnce) {
-  EXPECT_EQ(faults_of("vary: [{initial.x: 3}, {initial.phi: {from: a, to: 1, count: 3}}]\nsample: {count: 3}").size(), 3u);
+  EXPECT_EQ(faults_of("vary: [{initial.x: 3}, {initial.phi: {from: a, to: 1, count: 3}}]\nsample: {count: 3}").size(),
+            3u);
 }
 
 // A mistyped key would else give a study of refused trials.
@@ -109,7 +115,8 @@ TEST(StudyFile, OfNoSceneIsRefused) {
     load_study(folder.write("s.yaml", "scene: nosuch"), none);
     FAIL();
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("s.yaml: scene: nosuch: no such scene"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("s.yaml: scene: nosuch: no such scene"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(load_study(folder.write("s.yaml", "vary: {initial.x: [1]}"), none), SceneError);
   EXPECT_THROW(load_study("/nosuch/study.yaml", none), SceneError);

@@ -32,7 +32,8 @@ samples: {count: 9}
 std::string bits_of(const TrialRow& row) {
   std::string bits = std::to_string(row.index) + outcome_word(row) + row.reason + to_string(row.mode);
   const auto add = [&](const auto& value) { bits.append(reinterpret_cast<const char*>(&value), sizeof value); };
-  add(row.duration), add(row.end_time), add(row.nonimpact_time), add(row.end), add(row.impacts), add(row.first_impact), add(row.last_impact);
+  add(row.duration), add(row.end_time), add(row.nonimpact_time), add(row.end), add(row.impacts), add(row.first_impact),
+      add(row.last_impact);
   add(row.peak_force), add(row.normal_impulse), add(row.friction_impulse), add(row.impulse_x), add(row.impulse_y);
   add(row.contact_time);
   return bits;
@@ -88,15 +89,21 @@ TEST(Sweep, ShardsTogetherAreTheWhole) {
 TEST(Sweep, KeepsTheOrderWhenTheFirstTrialIsTheLongest) {
   const Study study = study_of(
       "set: {solver: {name: rk4, step: 1.0e-5}}\n"
-      "vary: {trial.time_limit: [30" + [] { std::string rest; for (int i = 0; i < 3000; ++i) rest += ", 0.001"; return rest; }() + "]}");
+      "vary: {trial.time_limit: [30" +
+      [] {
+        std::string rest;
+        for (int i = 0; i < 3000; ++i) rest += ", 0.001";
+        return rest;
+      }() +
+      "]}");
   std::size_t next = 0;
   EXPECT_TRUE(run_sweep(study, with_threads(2), [&](const TrialRow& row) { EXPECT_EQ(row.index, next++); }));
   EXPECT_EQ(next, 3001u);
 }
 
 TEST(Sweep, RefusedAndFailedTrialsAreRows) {
-  const Study study = study_of(
-      "vary: [{slot.clearance: [0.1, 0]}, {initial.x: [0.2, 40]}, {solver.step_limit: [3, 1000000]}]");
+  const Study study =
+      study_of("vary: [{slot.clearance: [0.1, 0]}, {initial.x: [0.2, 40]}, {solver.step_limit: [3, 1000000]}]");
   std::vector<std::string> words, reasons;
   run_sweep(study, with_threads(2), [&](const TrialRow& row) {
     words.push_back(outcome_word(row));
@@ -114,7 +121,8 @@ TEST(Sweep, RefusedAndFailedTrialsAreRows) {
 
 // Trials that take hours: they are given up on the way, or this test does not end.
 TEST(Sweep, EndsWhenTold) {
-  const Study study = study_of("set: {solver: {name: rk4, step: 1.0e-9, step_limit: 1.0e15}}\nvary: {excitation.phase: [0, 1, 2, 3]}");
+  const Study study =
+      study_of("set: {solver: {name: rk4, step: 1.0e-9, step_limit: 1.0e15}}\nvary: {excitation.phase: [0, 1, 2, 3]}");
   SweepOptions options = with_threads(2);
   int asked = 0;
   options.go_on = [&] { return ++asked < 3; };

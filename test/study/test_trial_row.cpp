@@ -1,4 +1,5 @@
-// What a study keeps of a trial: the result of the trial itself, and impulses and times of contact that obey Newton's laws.
+// What a study keeps of a trial: the result of the trial itself, and impulses and times of contact that obey Newton's
+// laws.
 #include "study/trial_row.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +93,8 @@ TEST(TrialRow, FirstAndLastImpactAreTheTimesOfTheTouches) {
 
 // With no gripper along x the base alone moves the part sideways: its impulse is the momentum gained.
 TEST(TrialRow, ImpulseAlongXIsTheMomentumGained) {
-  const Scene scene = scene_of(test::plain, {"gripper.stiffness.x=0", "gripper.damping.x=0", "contacts=[edges, corners]"});
+  const Scene scene =
+      scene_of(test::plain, {"gripper.stiffness.x=0", "gripper.damping.x=0", "contacts=[edges, corners]"});
   const TrialRow row = run_trial_row(scene, 0);
   double sum = 0.0;
   for (const double impulse : row.impulse_x) sum += impulse;
@@ -124,8 +126,9 @@ TEST(TrialRow, OneImpactHasTheImpulseAndTimeOfTheHalfSwing) {
 
 // A part that slides to the right without turning back: T = -f N all the time, so are the integrals.
 TEST(TrialRow, FrictionOfASlidingPartIsTheCoefficientTimesTheNormalImpulse) {
-  const Scene scene = scene_of(test::ball, {"gripper={stiffness: {x: 0}, anchor: {y: 0.6}}", "friction.coefficient=0.25",
-                                            "initial={x: 0.2, y: 1.0, vx: 1}", "trial.time_limit=1.2"});
+  const Scene scene =
+      scene_of(test::ball, {"gripper={stiffness: {x: 0}, anchor: {y: 0.6}}", "friction.coefficient=0.25",
+                            "initial={x: 0.2, y: 1.0, vx: 1}", "trial.time_limit=1.2"});
   const TrialRow row = run_trial_row(scene, 0);
   EXPECT_GT(row.end.vx, 0.0);
   EXPECT_GT(row.normal_impulse[0], 0.1);
@@ -138,7 +141,8 @@ TEST(TrialRow, FrictionOfASlidingPartIsTheCoefficientTimesTheNormalImpulse) {
 TEST(TrialRow, NonimpactTimeIsTheTimeInThatMode) {
   const auto row_of = [](const std::string& force) {
     return run_trial_row(scene_of(test::ball, {"gripper={pressing_force: " + force + "}", "initial={x: 0.2}",
-                                               "excitation={amplitude: 1, frequency: 10}"}), 0);
+                                               "excitation={amplitude: 1, frequency: 10}"}),
+                         0);
   };
   EXPECT_EQ(row_of("0.1").mode, Mode::impact);
   EXPECT_EQ(row_of("0.1").nonimpact_time, 0.0);

@@ -1,4 +1,5 @@
-// The scenes of a study's trials: those that `align trial --set ...` has for the same values, in any order of the trials.
+// The scenes of a study's trials: those that `align trial --set ...` has for the same values, in any order of the
+// trials.
 #include "study/trial_scenes.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +77,8 @@ TEST(TrialScenes, OffsetsAddToWhatTheTrialHasOtherwise) {
 }
 
 TEST(TrialScenes, AnOffsetToNothingIsRefused) {
-  EXPECT_THROW(study_of("vary: {initial.y: {from: 0, to: 1, count: 2, as: offset}}\nset: {initial.y: null}"), SceneError);
+  EXPECT_THROW(study_of("vary: {initial.y: {from: 0, to: 1, count: 2, as: offset}}\nset: {initial.y: null}"),
+               SceneError);
 }
 
 TEST(TrialScenes, LeaveWhatAnAliasSharesAlone) {
@@ -105,8 +107,9 @@ TEST(TrialScenes, ARefusedOneDoesNotSpoilTheNext) {
 }
 
 TEST(TrialScenes, ReachIntoLists) {
-  TrialScenes scenes(study_of("set: {excitation: [{amplitude: 1, frequency: 2}, {amplitude: 3, frequency: 4}]}\n"
-                              "vary: {excitation.1.frequency: [5, 6]}"));
+  TrialScenes scenes(
+      study_of("set: {excitation: [{amplitude: 1, frequency: 2}, {amplitude: 3, frequency: 4}]}\n"
+               "vary: {excitation.1.frequency: [5, 6]}"));
   EXPECT_EQ(scenes.at(1).excitations[1].frequency, 6.0);
   EXPECT_EQ(scenes.at(0).excitations[1].frequency, 5.0);
   EXPECT_EQ(scenes.at(0).excitations[0].frequency, 2.0);

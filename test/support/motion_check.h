@@ -1,6 +1,6 @@
 // Looks at a motion from outside, segment by segment, and holds it against MODEL.md: equations of motion, base law,
-// friction law, who is in contact with what. The mechanics are written once more here, from MODEL.md alone; from src come
-// only the data (scene, resolved start, segments).
+// friction law, who is in contact with what. The mechanics are written once more here, from MODEL.md alone; from src
+// come only the data (scene, resolved start, segments).
 //
 // What it cannot see is a root missed between its samples; the reference cases and the tests of the roots do that.
 #pragma once
@@ -27,7 +27,8 @@ class MotionCheck {
     eps_ = scene.friction && scene.friction->regularization ? *scene.friction->regularization : 0.0;
     tolerance_ = std::max(1e-3 * scene.solver.tolerance, 1e-15);
     for (const Axis* axis : {&system_.x, &system_.y, &system_.phi})
-      if (axis->moves) fastest_ = std::max({fastest_, std::sqrt(axis->stiffness / axis->inertia), axis->damping / axis->inertia});
+      if (axis->moves)
+        fastest_ = std::max({fastest_, std::sqrt(axis->stiffness / axis->inertia), axis->damping / axis->inertia});
     for (const Excitation& e : scene.excitations) fastest_ = std::max({fastest_, e.frequency, e.end_frequency});
   }
 
@@ -53,7 +54,8 @@ class MotionCheck {
     if (g.flight != nullptr)
       for (int i = 1; i < 60; ++i) check_laws(h * i / 60.0);
     check_laws(h);
-    expect(distance(g.end, state_at(g, h)) <= 1e-12 * size(g.end), "the end is not that of the series", distance(g.end, state_at(g, h)));
+    expect(distance(g.end, state_at(g, h)) <= 1e-12 * size(g.end), "the end is not that of the series",
+           distance(g.end, state_at(g, h)));
     check_events();
     follow_recovery(h);
     before_ = g.end;
@@ -71,8 +73,8 @@ class MotionCheck {
   void expect(bool holds, const std::string& what, double value) {
     if (holds || faults_ > 0) return;
     ++faults_;
-    ADD_FAILURE() << scene_.name << ": " << what << " (" << value << ") in the segment from " << g_->start.value() << ", "
-                  << g_->duration << " long";
+    ADD_FAILURE() << scene_.name << ": " << what << " (" << value << ") in the segment from " << g_->start.value()
+                  << ", " << g_->duration << " long";
   }
 
   static double distance(const State& a, const State& b) {
@@ -110,8 +112,10 @@ class MotionCheck {
       const double px = q.x + p.rx, py = q.y + p.ry;
       p.nx = face == Face::right_wall ? -1.0 : face == Face::left_wall ? 1.0 : 0.0;
       p.ny = p.nx == 0.0 ? 1.0 : 0.0;
-      p.depth = face == Face::right_wall ? px - l_ : face == Face::left_wall ? -l_ - px
-                : face == Face::floor ? -*scene_.slot.depth - py : -py;
+      p.depth = face == Face::right_wall  ? px - l_
+                : face == Face::left_wall ? -l_ - px
+                : face == Face::floor     ? -*scene_.slot.depth - py
+                                          : -py;
     }
     const double ux = q.vx - q.omega * p.ry, uy = q.vy + q.omega * p.rx;  // the material point
     p.depth_rate = -(ux * p.nx + uy * p.ny);
@@ -126,10 +130,8 @@ class MotionCheck {
     const double pi = 3.14159265358979323846;
     double theta = e.frequency * t + e.phase;
     switch (e.waveform) {
-      case Waveform::sine:
-        return e.amplitude * std::sin(theta);
-      case Waveform::square:
-        return e.amplitude * (std::sin(theta) > 0.0 ? 1.0 : -1.0);
+      case Waveform::sine: return e.amplitude * std::sin(theta);
+      case Waveform::square: return e.amplitude * (std::sin(theta) > 0.0 ? 1.0 : -1.0);
       case Waveform::triangle: {
         theta = std::fmod(theta, 2.0 * pi);
         if (theta < 0.0) theta += 2.0 * pi;
@@ -185,7 +187,8 @@ class MotionCheck {
              value_at(series.normal_force, g.order, t) - n);
       expect(n >= -digits, "the base pulls", n);
       const double tangential = value_at(series.tangential_force, g.order - 1, t);
-      check_friction(contact.slip, n, tangential, p.slip, digits, size(q), cut_off(g.vx) + cut_off(g.vy) + cut_off(g.omega));
+      check_friction(contact.slip, n, tangential, p.slip, digits, size(q),
+                     cut_off(g.vx) + cut_off(g.vy) + cut_off(g.omega));
       const double px = n * p.nx + tangential * p.ny, py = n * p.ny - tangential * p.nx;
       fx += px;
       fy += py;
@@ -195,12 +198,14 @@ class MotionCheck {
     }
     const double digits = 1e-14 * stiff * size(q) + 1e-12 * forces;
     // forces of a contact carry what is cut off of one velocity to the others
-    const double cut = g.loaded_count > 0 ? cut_off(g.vx) + cut_off(g.vy) + system_.phi.inertia * cut_off(g.omega) : 0.0;
+    const double cut =
+        g.loaded_count > 0 ? cut_off(g.vx) + cut_off(g.vy) + system_.phi.inertia * cut_off(g.omega) : 0.0;
     const auto axis = [&](const Axis& a, const Series& v, double State::*rate, double force, const char* what) {
       const double acceleration = g.flight != nullptr ? flight_derivative(rate, t) : derivative(v, g.order, t);
       if (!a.moves) return expect(acceleration == 0.0, "a locked motion moves", acceleration);
       const double residual = acceleration - force / a.inertia;
-      const double error = g.flight != nullptr ? 1e-8 * (fastest_ * size(q) + forces / a.inertia) : (digits + cut) / a.inertia + cut_off(v);
+      const double error = g.flight != nullptr ? 1e-8 * (fastest_ * size(q) + forces / a.inertia)
+                                               : (digits + cut) / a.inertia + cut_off(v);
       expect(std::abs(residual) <= error, what, residual);
     };
     axis(system_.x, g.vx, &State::vx, fx, "x'' is not what the forces give");
@@ -213,7 +218,8 @@ class MotionCheck {
     if (eps_ > 0.0) {
       // the narrow layer shows what is cut off, and the last digits of V
       const double error = t + friction_ * n * std::tanh(v / eps_);
-      return expect(std::abs(error) <= digits + cut + 1e-14 * speed / eps_ * (1.0 + std::abs(n)), "T is not -f N tanh(V/eps)", error);
+      return expect(std::abs(error) <= digits + cut + 1e-14 * speed / eps_ * (1.0 + std::abs(n)),
+                    "T is not -f N tanh(V/eps)", error);
     }
     if (friction_ == 0.0) return expect(t == 0.0, "T without friction", t);
     const double still = 1e-13 * speed + 1e2 * tolerance_;
@@ -230,8 +236,7 @@ class MotionCheck {
         expect(v <= still, "it slips backward with V > 0", v);
         expect(std::abs(t - friction_ * n) <= digits, "T is not +f N", t);
         break;
-      default:
-        expect(false, "a loaded contact without law of friction", 0.0);
+      default: expect(false, "a loaded contact without law of friction", 0.0);
     }
   }
 
@@ -239,22 +244,20 @@ class MotionCheck {
     switch (face) {
       case Face::bottom:
       case Face::right_side:
-      case Face::left_side:
-        return scene_.contacts.edges;
-      case Face::top:
-        return scene_.contacts.corners;
-      case Face::floor:
-        return scene_.contacts.walls && scene_.slot.depth;
-      default:
-        return scene_.contacts.walls;
+      case Face::left_side: return scene_.contacts.edges;
+      case Face::top: return scene_.contacts.corners;
+      case Face::floor: return scene_.contacts.walls && scene_.slot.depth;
+      default: return scene_.contacts.walls;
     }
   }
 
   /// How deep the site's point is inside the other body, and through which face that is nearest; corners on one half.
   double inside(const State& q, int site, double half, Face& nearest) const {
     std::vector<Face> faces{Face::floor};
-    if (is_edge_site(site)) faces = {Face::bottom, Face::right_side, Face::left_side};
-    else if (site < 4) faces = {Face::top, half > 0.0 ? Face::right_wall : Face::left_wall};
+    if (is_edge_site(site))
+      faces = {Face::bottom, Face::right_side, Face::left_side};
+    else if (site < 4)
+      faces = {Face::top, half > 0.0 ? Face::right_wall : Face::left_wall};
     double least = INFINITY;
     for (const Face face : faces) {
       const double depth = point(q, site, face).depth;
@@ -297,8 +300,10 @@ class MotionCheck {
         expect(p.depth >= -tiny, "an unloaded contact that is open", p.depth);
         const double push = p.stiffness * p.depth + p.damping * p.depth_rate;
         const double digits = 1e-13 * (p.stiffness + p.damping) * size(q) + 1e3 * tolerance_ * (1.0 + std::abs(push));
-        if (!scene_.base.recovery) expect(push <= digits, "an unloaded contact that would push", push);
-        else expect(p.depth <= deformation(static_cast<std::size_t>(site), t) + tiny, "deeper than the base", p.depth);
+        if (!scene_.base.recovery)
+          expect(push <= digits, "an unloaded contact that would push", push);
+        else
+          expect(p.depth <= deformation(static_cast<std::size_t>(site), t) + tiny, "deeper than the base", p.depth);
       }
       // the foot is on its face
       const double along = is_edge_site(site) ? p.rx * std::cos(q.phi) + p.ry * std::sin(q.phi) : q.x + p.rx;
@@ -338,9 +343,7 @@ class MotionCheck {
         case EventKind::run_off:
           expect(std::abs(p.depth) <= tiny, "an end of contact away from its place", p.depth);
           break;
-        case EventKind::release:
-          expect(std::abs(push) <= digits, "a release under load", push);
-          break;
+        case EventKind::release: expect(std::abs(push) <= digits, "a release under load", push); break;
         case EventKind::reload:
           if (!scene_.base.recovery) expect(std::abs(push) <= digits, "a reload under load", push);
           break;
@@ -348,8 +351,7 @@ class MotionCheck {
         case EventKind::slip_reversal:
           if (eps_ == 0.0) expect(std::abs(p.slip) <= tiny, "V = 0 away from zero", p.slip);
           break;
-        default:
-          break;
+        default: break;
       }
     }
   }
@@ -392,7 +394,8 @@ class MotionCheck {
         if (event.kind == EventKind::release) {
           const Face face = g_->contacts[site].face;
           recovering_[site] = {face, point(g_->end, static_cast<int>(site), face).depth};
-        } else if (event.kind == EventKind::touch || event.kind == EventKind::reload || event.kind == EventKind::run_off) {
+        } else if (event.kind == EventKind::touch || event.kind == EventKind::reload ||
+                   event.kind == EventKind::run_off) {
           recovering_[site] = {};
         }
       }

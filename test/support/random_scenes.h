@@ -10,8 +10,12 @@ namespace vibratory_alignment::test {
 
 inline Scene random_scene(unsigned seed) {
   std::mt19937 random(seed);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-  const auto decades = [&](double low, double high) { return std::pow(10.0, uniform(std::log10(low), std::log10(high))); };
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto decades = [&](double low, double high) {
+    return std::pow(10.0, uniform(std::log10(low), std::log10(high)));
+  };
   const auto chance = [&](double p) { return uniform(0.0, 1.0) < p; };
   Scene s;
   s.name = "random";
@@ -50,7 +54,8 @@ inline Scene random_scene(unsigned seed) {
   s.initial.phi = uniform(-0.15, 0.15);
   s.initial.y = s.part.base_distance * std::cos(*s.initial.phi) + uniform(0.05, 0.25);
   s.gripper.anchor_y = s.part.base_distance - uniform(0.1, 0.9);
-  if (chance(0.3)) s.initial.vx = uniform(-0.5, 0.5), s.initial.omega = uniform(-1.0, 1.0), s.initial.vy = uniform(-0.5, 0.5);
+  if (chance(0.3))
+    s.initial.vx = uniform(-0.5, 0.5), s.initial.omega = uniform(-1.0, 1.0), s.initial.vy = uniform(-0.5, 0.5);
   s.trial.time_limit = 20.0;
   s.trial.aligned_depth = s.slot.depth ? 0.5 * *s.slot.depth : 0.02;
   return s;

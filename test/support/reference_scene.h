@@ -10,7 +10,8 @@
 
 namespace vibratory_alignment::test {
 
-inline Scene scene_of_reference(const reference::ReferenceParameters& p, const reference::ReferenceState& start, double end_time) {
+inline Scene scene_of_reference(const reference::ReferenceParameters& p, const reference::ReferenceState& start,
+                                double end_time) {
   const auto d = [](reference::Real value) { return static_cast<double>(value); };
   Scene s;
   s.part = {d(p.a), d(p.b)};
@@ -58,8 +59,8 @@ inline Scene scene_of_reference(const reference::ReferenceCase& c) {
 /// Largest difference of any coordinate or velocity.
 inline double distance(const State& a, const reference::ReferenceState& b) {
   using std::abs;
-  return static_cast<double>(std::max({abs(a.x - b.x), abs(a.y - b.y), abs(a.phi - b.phi), abs(a.vx - b.vx), abs(a.vy - b.vy),
-                                       abs(a.omega - b.omega)}));
+  return static_cast<double>(std::max({abs(a.x - b.x), abs(a.y - b.y), abs(a.phi - b.phi), abs(a.vx - b.vx),
+                                       abs(a.vy - b.vy), abs(a.omega - b.omega)}));
 }
 
 }  // namespace vibratory_alignment::test

@@ -30,9 +30,13 @@ struct TimedEvent {
 /// All events of a run, in order.
 inline std::vector<TimedEvent> events_of(const Scene& scene, std::optional<double> until = {}) {
   std::vector<TimedEvent> events;
-  run(scene, [&](const Segment& g) {
-    for (int i = 0; i < g.event_count; ++i) events.push_back({g.end_time(), g.events[static_cast<std::size_t>(i)], g.end});
-  }, until);
+  run(
+      scene,
+      [&](const Segment& g) {
+        for (int i = 0; i < g.event_count; ++i)
+          events.push_back({g.end_time(), g.events[static_cast<std::size_t>(i)], g.end});
+      },
+      until);
   return events;
 }
 

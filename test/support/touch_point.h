@@ -1,5 +1,5 @@
-// A possible contact of one site with one face: where it is, how deep, how fast, and what the base answers. Written once
-// more from MODEL.md "Contact", so that tests do not ask the code that they judge.
+// A possible contact of one site with one face: where it is, how deep, how fast, and what the base answers. Written
+// once more from MODEL.md "Contact", so that tests do not ask the code that they judge.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Changes while a trial runs: they enter at a defined instant, keep the phase, and the motion goes on as a new trial that
-// starts there would.
+// Changes while a trial runs: they enter at a defined instant, keep the phase, and the motion goes on as a new trial
+// that starts there would.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,8 @@ TrialResult changed_run(const Scene& scene, double when, const std::vector<Excit
 }
 
 /// A part in the air at `when`: there the state alone says how it goes on.
-TrialResult as_new_trial(Scene scene, double when, const State& state, const std::vector<Excitation>& excitations, double phase) {
+TrialResult as_new_trial(Scene scene, double when, const State& state, const std::vector<Excitation>& excitations,
+                         double phase) {
   scene.initial = {state.x, state.y, state.phi, state.vx, state.vy, state.omega};
   scene.excitations = excitations;
   scene.excitations[0].phase = phase;
@@ -179,7 +180,8 @@ TEST(Changes, before_the_start_enter_at_the_start) {
   EXPECT_EQ(test::distance(simulation.result().final_state, test::run(expected).final_state), 0.0);
 }
 
-const std::vector<std::string> pressed = {"gripper={stiffness: {x: 0.5, phi: 30.0}, damping: {x: 0.1, y: 0.1, phi: 1.33}, pressing_force: 0.2}"};
+const std::vector<std::string> pressed = {
+    "gripper={stiffness: {x: 0.5, phi: 30.0}, damping: {x: 0.1, y: 0.1, phi: 1.33}, pressing_force: 0.2}"};
 
 // f0 = y_touch - y_a, y_touch that of the start: the anchor moves by the difference.
 TEST(Changes, of_the_press_move_the_anchor) {
@@ -235,8 +237,9 @@ TEST(Changes, cuts_do_not_change_the_motion) {
 
 // A change is judged anew: what had nearly settled goes on.
 TEST(Changes, restart_the_watch_for_settling) {
-  const Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.5}, damping: {y: 1.0}}", "excitation={amplitude: 0.2, frequency: 6.0}",
-                                            "base={stiffness: {y: 1.0e3}, damping: {y: 60}}", "trial.time_limit=1000"});
+  const Scene scene = scene_of(
+      test::ball, {"gripper={anchor: {y: 0.5}, damping: {y: 1.0}}", "excitation={amplitude: 0.2, frequency: 6.0}",
+                   "base={stiffness: {y: 1.0e3}, damping: {y: 60}}", "trial.time_limit=1000"});
   const double alone = test::run(scene).final_time;
   Simulation simulation(scene);
   bool changed = false;

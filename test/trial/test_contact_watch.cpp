@@ -158,7 +158,8 @@ TEST(Mode, pressed_firmly_is_nonimpact) {
 TEST(Mode, a_first_flight_is_none) {
   const Scene scene = scene_of(test::ball, {"initial.y=0.899", "initial.vy=1", "excitation.amplitude=0"});
   bool in_flight = false;
-  const TrialResult result = run(scene, [&](const Segment& g) { in_flight = g.loaded_count == 0; }, 0.2);
+  const TrialResult result = run(
+      scene, [&](const Segment& g) { in_flight = g.loaded_count == 0; }, 0.2);
   EXPECT_TRUE(in_flight);
   EXPECT_EQ(test::total_impacts(result), 0);
   EXPECT_EQ(result.mode, Mode::none);

@@ -42,7 +42,8 @@ TEST_P(ShippedScene, closes_its_ledger) {
   EXPECT_GE(e.base_loss, 0.0);
   EXPECT_GE(e.friction_loss, -1e-12);
   // the balance itself, from the terms that are reported
-  const double balance = e.initial + e.excitation_work + e.turning - e.gripper_loss - e.base_loss - e.friction_loss - e.release_loss - e.final;
+  const double balance = e.initial + e.excitation_work + e.turning - e.gripper_loss - e.base_loss - e.friction_loss -
+                         e.release_loss - e.final;
   EXPECT_LT(std::abs(balance), 1e-9 * e.exchanged);
   EXPECT_GE(e.exchanged, std::abs(e.initial));
 }
@@ -58,9 +59,11 @@ TEST(EnergyLedger, is_kept_on_request_only) {
 
 // A part that swings freely, damped: E(0) - E(t) went into the damper.
 TEST(EnergyLedger, of_a_damped_swing) {
-  const Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 2.0}, damping: {y: 0.3}}", "initial.y=2.5", "trial.time_limit=7"});
+  const Scene scene =
+      scene_of(test::ball, {"gripper={anchor: {y: 2.0}, damping: {y: 0.3}}", "initial.y=2.5", "trial.time_limit=7"});
   const TrialResult r = run(scene, {}, 7.0);
-  const double w = std::sqrt(1.0 - 0.15 * 0.15), y = 0.5 * std::exp(-0.15 * 7.0) * (std::cos(w * 7.0) + 0.15 / w * std::sin(w * 7.0));
+  const double w = std::sqrt(1.0 - 0.15 * 0.15),
+               y = 0.5 * std::exp(-0.15 * 7.0) * (std::cos(w * 7.0) + 0.15 / w * std::sin(w * 7.0));
   const double v = -0.5 * std::exp(-0.15 * 7.0) / w * std::sin(w * 7.0);
   EXPECT_NEAR(r.energy->initial, 0.125, 1e-15);
   EXPECT_NEAR(r.energy->final, 0.5 * (y * y + v * v), 1e-14);
@@ -71,7 +74,8 @@ TEST(EnergyLedger, of_a_damped_swing) {
 // The steady swing A sin(nu t)/(1 - nu^2) takes what the excitation gives: E(t) - E(0) = work.
 TEST(EnergyLedger, of_a_driven_swing) {
   const double nu = 3.0, a = 1.0 / (1.0 - nu * nu), t = 5.3;
-  Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 3.0}}", "initial.y=3.0", "excitation={amplitude: 1.0, frequency: 3.0}"});
+  Scene scene = scene_of(
+      test::ball, {"gripper={anchor: {y: 3.0}}", "initial.y=3.0", "excitation={amplitude: 1.0, frequency: 3.0}"});
   scene.initial.vy = nu * a;
   const TrialResult r = run(scene, {}, t);
   // integral of sin(nu t) a nu cos(nu t)
@@ -80,18 +84,22 @@ TEST(EnergyLedger, of_a_driven_swing) {
 
 // One impact: (1 - e^2) v^2/2 is lost, in the damper of the base and with what the base keeps when the part leaves it.
 TEST(EnergyLedger, of_one_impact) {
-  Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "base={stiffness: {y: 1.0e6}, damping: {y: 600}}"});
+  Scene scene = scene_of(
+      test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "base={stiffness: {y: 1.0e6}, damping: {y: 600}}"});
   scene.solver.tolerance = 1e-12;
   double before = 0.0, after = 0.0, dropped = 0.0;
-  const TrialResult r = run(scene, [&](const Segment& g) {
-    for (int i = 0; i < g.event_count; ++i) {
-      const EventKind kind = g.events[static_cast<std::size_t>(i)].kind;
-      if (kind == EventKind::touch) before = g.end.vy;
-      if (kind != EventKind::release) continue;
-      after = g.end.vy;
-      dropped = 0.5e6 * std::pow(0.9 - g.end.y, 2);
-    }
-  }, 2.5);
+  const TrialResult r = run(
+      scene,
+      [&](const Segment& g) {
+        for (int i = 0; i < g.event_count; ++i) {
+          const EventKind kind = g.events[static_cast<std::size_t>(i)].kind;
+          if (kind == EventKind::touch) before = g.end.vy;
+          if (kind != EventKind::release) continue;
+          after = g.end.vy;
+          dropped = 0.5e6 * std::pow(0.9 - g.end.y, 2);
+        }
+      },
+      2.5);
   ASSERT_EQ(r.impacts[0], 1);
   EXPECT_NEAR(r.energy->release_loss, dropped, 1e-13);
   const double spring = 0.5 * 2.0 * dropped / 1e6;  // of the gripper at the release, k_y = 1
@@ -100,8 +108,12 @@ TEST(EnergyLedger, of_one_impact) {
 
 // C1 != C2: the normal turns under load and the spring's stiffness with it, which is a term of its own.
 TEST(EnergyLedger, of_a_normal_that_turns) {
-  const std::vector<std::string> turning = {"base={stiffness: {x: 300, y: 900}}", "friction=null", "gripper.damping=null",
-                                            "initial={x: 0.21, y: 1.0, phi: 0.3, omega: -2.0}", "gripper.pressing_force=null", "gripper.anchor.y=0.6"};
+  const std::vector<std::string> turning = {"base={stiffness: {x: 300, y: 900}}",
+                                            "friction=null",
+                                            "gripper.damping=null",
+                                            "initial={x: 0.21, y: 1.0, phi: 0.3, omega: -2.0}",
+                                            "gripper.pressing_force=null",
+                                            "gripper.anchor.y=0.6"};
   const TrialResult r = run(scene_of(test::plain, turning));
   EXPECT_GT(std::abs(r.energy->turning), 1e-4);
   EXPECT_LT(r.energy->residual, 1e-11);

@@ -65,8 +65,9 @@ TEST(Outcome, aligned_is_both_corners_in_the_slot_below_the_depth) {
 
 // A part that lies on the base, its corner pressed into the top surface, is not in the slot.
 TEST(Outcome, a_part_on_the_base_is_not_aligned) {
-  const Scene scene = scene_of(test::plain, {"gripper={stiffness: {x: 9, phi: 60}, anchor: {x: 0.5, y: 0.8}}", "contacts=[edges, corners]",
-                                             "initial={x: 0.5, y: 0.96, phi: -0.004}", "trial.time_limit=5"});
+  const Scene scene = scene_of(
+      test::plain, {"gripper={stiffness: {x: 9, phi: 60}, anchor: {x: 0.5, y: 0.8}}", "contacts=[edges, corners]",
+                    "initial={x: 0.5, y: 0.96, phi: -0.004}", "trial.time_limit=5"});
   const TrialResult result = run(scene);
   EXPECT_NE(result.outcome, Outcome::aligned);
   EXPECT_FALSE(result.aligned_time);
@@ -110,7 +111,8 @@ TEST(Outcome, time_limit_is_exact) {
   }
 }
 
-const std::vector<std::string> with_floor = {"contacts=[edges, corners, walls]", "slot.depth=0.3", "trial.time_limit=60"};
+const std::vector<std::string> with_floor = {"contacts=[edges, corners, walls]", "slot.depth=0.3",
+                                             "trial.time_limit=60"};
 
 std::vector<std::string> with(std::vector<std::string> settings, const std::vector<std::string>& more) {
   settings.insert(settings.end(), more.begin(), more.end());
@@ -128,7 +130,8 @@ TEST(Outcome, inserted_is_at_the_floor) {
 }
 
 TEST(Outcome, inserted_is_at_the_asked_depth) {
-  const Scene scene = scene_of(slips_down, {"contacts=[edges, corners, walls]", "trial.inserted_depth=0.15", "gripper.pressing_force=0.5"});
+  const Scene scene = scene_of(
+      slips_down, {"contacts=[edges, corners, walls]", "trial.inserted_depth=0.15", "gripper.pressing_force=0.5"});
   const TrialResult result = run(scene);
   ASSERT_EQ(result.outcome, Outcome::inserted);
   const double higher = std::max(corner(scene, result.final_state, 1.0).y, corner(scene, result.final_state, -1.0).y);
@@ -138,8 +141,9 @@ TEST(Outcome, inserted_is_at_the_asked_depth) {
 
 // Too little force to get down to the floor: it hangs in the slot on its spring. That is jammed, not stalled.
 TEST(Outcome, jammed_is_at_rest_in_the_slot_above_the_floor) {
-  const Scene scene = scene_of(slips_down, with(with_floor, {"gripper.pressing_force=0.1", "gripper.damping={x: 0.5, y: 0.5, phi: 1.3}",
-                                                             "trial.time_limit=400", "slot.depth=0.5"}));
+  const Scene scene =
+      scene_of(slips_down, with(with_floor, {"gripper.pressing_force=0.1", "gripper.damping={x: 0.5, y: 0.5, phi: 1.3}",
+                                             "trial.time_limit=400", "slot.depth=0.5"}));
   const TrialResult result = run(scene);
   ASSERT_EQ(result.outcome, Outcome::jammed) << to_string(result.outcome);
   EXPECT_TRUE(result.aligned_time);
@@ -148,7 +152,8 @@ TEST(Outcome, jammed_is_at_rest_in_the_slot_above_the_floor) {
 }
 
 TEST(Outcome, stalled_is_at_rest_on_the_base) {
-  const Scene scene = scene_of(slips_down, {"excitation.amplitude=0", "gripper.damping={x: 0.5, y: 0.5, phi: 1.3}", "trial.time_limit=400"});
+  const Scene scene = scene_of(
+      slips_down, {"excitation.amplitude=0", "gripper.damping={x: 0.5, y: 0.5, phi: 1.3}", "trial.time_limit=400"});
   const TrialResult result = run(scene);
   EXPECT_EQ(result.outcome, Outcome::stalled);
   EXPECT_LT(result.final_time, 400.0);
@@ -159,8 +164,9 @@ TEST(Outcome, stalled_is_at_rest_on_the_base) {
 
 TEST(Outcome, stalled_is_periodic_without_alignment) {
   // a ball on a shaken base, period-one
-  const Scene scene = scene_of(test::ball, {"gripper={damping: {y: 0.2}, anchor: {y: 0.5}}", "excitation={amplitude: 1.0, frequency: 6.0}",
-                                            "base={stiffness: {y: 1.0e4}, damping: {y: 80}}", "trial.time_limit=1000"});
+  const Scene scene = scene_of(
+      test::ball, {"gripper={damping: {y: 0.2}, anchor: {y: 0.5}}", "excitation={amplitude: 1.0, frequency: 6.0}",
+                   "base={stiffness: {y: 1.0e4}, damping: {y: 80}}", "trial.time_limit=1000"});
   const TrialResult result = run(scene);
   EXPECT_EQ(result.outcome, Outcome::stalled);
   EXPECT_LT(result.final_time, 900.0);

@@ -17,8 +17,9 @@ namespace {
 using test::run;
 using test::scene_of;
 
-// M = 0.1 kg, K_Y = 4000 N/m, F1 = 8 N: lengths in 2 mm, times in 5 ms, moments in 16 mN m; one case in both units, every
-// number scaled by hand (damping K_Y 5 ms = 20 N s/m, of phi 16e-3 5e-3 = 8e-5 N m s, inertia 0.1 (2e-3)^2 = 4e-7 kg m^2).
+// M = 0.1 kg, K_Y = 4000 N/m, F1 = 8 N: lengths in 2 mm, times in 5 ms, moments in 16 mN m; one case in both units,
+// every number scaled by hand (damping K_Y 5 ms = 20 N s/m, of phi 16e-3 5e-3 = 8e-5 N m s, inertia 0.1 (2e-3)^2 = 4e-7
+// kg m^2).
 const std::string dimensionless = R"(
 part: {half_width: 0.7, base_distance: 0.9, inertia: 0.3}
 slot: {clearance: 0.09, depth: 0.25}
@@ -75,9 +76,9 @@ TEST(Units, si_and_dimensionless_give_the_same_motion) {
 }
 
 bool identical(const TrialResult& a, const TrialResult& b) {
-  return test::distance(a.final_state, b.final_state) == 0.0 && a.final_time == b.final_time && a.impacts == b.impacts &&
-         a.peak_force == b.peak_force && a.counts.steps == b.counts.steps && a.counts.events == b.counts.events &&
-         a.energy->residual == b.energy->residual && a.outcome == b.outcome;
+  return test::distance(a.final_state, b.final_state) == 0.0 && a.final_time == b.final_time &&
+         a.impacts == b.impacts && a.peak_force == b.peak_force && a.counts.steps == b.counts.steps &&
+         a.counts.events == b.counts.events && a.energy->residual == b.energy->residual && a.outcome == b.outcome;
 }
 
 TEST(Determinism, the_same_scene_again_is_the_same_bit_for_bit) {

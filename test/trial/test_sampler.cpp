@@ -109,7 +109,8 @@ TEST(Sampler, output_rate_changes_nothing) {
     for (const Sample& s : r->samples) {
       if (at.count(s.time) == 0) continue;
       EXPECT_EQ(test::distance(at[s.time].state, s.state), 0.0) << s.time;
-      for (std::size_t i = 0; i < kSiteCount; ++i) EXPECT_EQ(at[s.time].contacts[i].normal_force, s.contacts[i].normal_force);
+      for (std::size_t i = 0; i < kSiteCount; ++i)
+        EXPECT_EQ(at[s.time].contacts[i].normal_force, s.contacts[i].normal_force);
     }
   for (const Record* r : {&coarse, &fine, &events}) {
     EXPECT_EQ(test::distance(r->result.final_state, alone.final_state), 0.0);
@@ -134,14 +135,16 @@ TEST(Sampler, event_samples_are_at_the_events_and_in_order) {
     if (s.is_event || steps != std::floor(steps)) seen.push_back(s.time);
   }
   for (const double time : expected)
-    EXPECT_TRUE(std::any_of(r.samples.begin(), r.samples.end(), [&](const Sample& s) { return s.time == time; })) << time;
+    EXPECT_TRUE(std::any_of(r.samples.begin(), r.samples.end(), [&](const Sample& s) { return s.time == time; }))
+        << time;
   EXPECT_GE(seen.size() + 3, expected.size());
 }
 
 // Integral of all forces = change of momentum: m dv = impulse of the base + of springs, dampers, weight and excitation.
 // Without a gripper's spring and damper along x the base's impulse alone makes vx.
 TEST(Sampler, impulses_make_the_momentum) {
-  const Scene scene = scene_of(test::plain, {"gripper.stiffness.x=0", "gripper.damping.x=0", "contacts=[edges, corners]", "trial.time_limit=4"});
+  const Scene scene = scene_of(
+      test::plain, {"gripper.stiffness.x=0", "gripper.damping.x=0", "contacts=[edges, corners]", "trial.time_limit=4"});
   for (const double interval : {1.0, 0.1, 0.013}) {
     double velocity = 0.0;
     double total = 0.0;

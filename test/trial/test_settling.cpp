@@ -21,8 +21,8 @@ using test::scene_of;
 Scene mismatched_scene(unsigned seed) {
   std::mt19937 random(seed);
   const auto u = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-  Scene s = scene_of(test::plain, {"contacts=[edges, corners]", "initial.y=null", "initial.phi=null", "gripper.anchor={phi: 0.0}",
-                                   "trial={time_limit: 100, aligned_depth: 0.01}"});
+  Scene s = scene_of(test::plain, {"contacts=[edges, corners]", "initial.y=null", "initial.phi=null",
+                                   "gripper.anchor={phi: 0.0}", "trial={time_limit: 100, aligned_depth: 0.01}"});
   s.slot.clearance = u(0.01, 0.05);
   s.initial.x = s.gripper.anchor_x = u(0.1, 0.3);
   s.gripper.x.stiffness = std::pow(10.0, u(-2.0, 0.0));
@@ -50,7 +50,8 @@ TEST(Settling, what_has_stalled_never_aligns) {
     }
     ++stalled;
     const TrialResult again = run(scene, {}, scene.trial.time_limit);
-    EXPECT_FALSE(again.aligned_time) << "seed " << seed << ": given up at " << first.final_time << ", aligns at " << again.aligned_time.value_or(0.0);
+    EXPECT_FALSE(again.aligned_time) << "seed " << seed << ": given up at " << first.final_time << ", aligns at "
+                                     << again.aligned_time.value_or(0.0);
     // and it is where it was
     EXPECT_LT(std::abs(again.final_state.x - first.final_state.x), 0.05) << "seed " << seed;
   }
@@ -61,9 +62,10 @@ TEST(Settling, what_has_stalled_never_aligns) {
 /// A block that is carried along by 4 f N/k_x less every cycle of a Coulomb oscillator has not settled until it rests.
 TEST(Settling, a_slow_creep_is_no_rest) {
   // weak spring, sliding back towards x_a over many periods under dither: creep of about 1e-5 a period
-  Scene scene = scene_of(test::plain, {"part.inertia=null", "initial={x: 0.35, phi: 0.0}", "gripper.stiffness.x=1.0e-3",
-                                       "gripper.anchor.x=0.0", "gripper.damping={x: 2.0, y: 0.1}", "friction.coefficient=0.3",
-                                       "gripper.pressing_force=1.4", "excitation.frequency=20", "trial={time_limit: 3000}"});
+  Scene scene =
+      scene_of(test::plain, {"part.inertia=null", "initial={x: 0.35, phi: 0.0}", "gripper.stiffness.x=1.0e-3",
+                             "gripper.anchor.x=0.0", "gripper.damping={x: 2.0, y: 0.1}", "friction.coefficient=0.3",
+                             "gripper.pressing_force=1.4", "excitation.frequency=20", "trial={time_limit: 3000}"});
   scene.excitations.push_back(scene.excitations[0]);
   scene.excitations[1].direction = Direction::x;
   scene.excitations[1].amplitude = 1.2;
@@ -100,7 +102,8 @@ TEST(Settling, period_of_the_slowest_excitation) {
 
 // Excitations without a common period never repeat: such a motion is not judged.
 TEST(Settling, nothing_settles_without_a_common_period) {
-  Scene scene = scene_of(test::ball, {"gripper={damping: {y: 0.5}, anchor: {y: 2.0}}", "initial.y=2.0", "trial.time_limit=100"});
+  Scene scene =
+      scene_of(test::ball, {"gripper={damping: {y: 0.5}, anchor: {y: 2.0}}", "initial.y=2.0", "trial.time_limit=100"});
   scene.excitations = {sine(5.0, 0.1), sine(5.0 * std::sqrt(2.0), 0.1)};
   EXPECT_EQ(run(scene).outcome, Outcome::time_limit);
   scene.excitations = {sine(5.0, 0.1), sine(10.0, 0.1)};
@@ -110,7 +113,8 @@ TEST(Settling, nothing_settles_without_a_common_period) {
 // A subharmonic motion repeats every other period only.
 TEST(Settling, a_doubled_period_is_seen_as_settled) {
   const double nu = 1000.0, pi = 3.14159265358979323846, e = 0.45098;
-  Scene scene = scene_of(test::ball, {"gripper.anchor.y=0.9", "weight=1", "excitation.frequency=1000", "initial.y=0.9"});
+  Scene scene =
+      scene_of(test::ball, {"gripper.anchor.y=0.9", "weight=1", "excitation.frequency=1000", "initial.y=0.9"});
   scene.base = {1e12, 1e12, 0.6e6, 0.6e6, false};
   scene.excitations[0].amplitude = 1.72;
   scene.excitations[0].phase = std::acos(pi * (1.0 - e) / (1.0 + e) / 1.72);
