@@ -66,6 +66,7 @@ Series deformation_series(const System& system, const Segment& segment, const Re
 
 Relaxation::Relaxation(const System& system, const Segment& segment, const Recovery& recovery)
     : start_(recovery.deformation) {
+  exponent_[0] = 0.0;
   if (recovers_evenly(system, recovery.face)) {
     order_ = 1;
     exponent_[1] = rate_at_start(system, segment, recovery.face);

@@ -34,7 +34,7 @@ class Relaxation {
  private:
   double start_;
   int order_;
-  Series exponent_{};  ///< the integral of k/h
+  Series exponent_;  ///< the integral of k/h, up to this power
 };
 
 /// How far deformation_series() holds: no farther than h/k, and than the series of k/h does to the relative error
