@@ -20,10 +20,19 @@
 
 namespace {
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+/// How far the node has come. Until it spins it may wait for a master, in roscpp.
+enum class Progress { before_start, starting, spinning };
 
-extern "C" void on_signal(int) { interrupted = true; }
+std::atomic<bool> interrupted{false};
+std::atomic<Progress> progress{Progress::before_start};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<Progress>::is_always_lock_free,
+              "a signal handler uses them");
+
+extern "C" void on_signal(int) {
+  interrupted = true;
+  if (progress == Progress::before_start) std::_Exit(EXIT_SUCCESS);  // nobody knows of the node as yet
+  if (progress == Progress::starting) ros::requestShutdown();
+}
 
 /// `rosnode kill`, or another node that takes this one's name.
 void on_shutdown_request(XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& answer) {
@@ -42,10 +51,11 @@ int fail(const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace vibratory_alignment;
-  ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
   const int master = master_process();
+  progress = Progress::starting;
   const ros::NodeHandle private_handle("~");
   // roscpp's own answer would shut ROS down before a goal can be ended
   ros::XMLRPCManager::instance()->unbind("shutdown");
@@ -56,9 +66,10 @@ int main(int argc, char** argv) {
     const NodeParameters parameters = read_node_parameters(private_handle, scene);
     warn_of_unread_settings(private_handle, DriveSettings(scene, parameters.time_scale).config());
     Aligner aligner(private_handle, scene, parameters, master);
+    progress = Progress::spinning;
     aligner.spin([] { return interrupted.load(); });
   } catch (const std::exception& error) {
-    return fail(error.what());
+    if (!interrupted) return fail(error.what());
   }
   return EXIT_SUCCESS;
 }

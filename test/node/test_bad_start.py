@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """What the node cannot run: it names the fault and ends with exit status 1."""
+import os
 import re
+import signal
+import socket
 import subprocess
 import tempfile
 import unittest
@@ -107,6 +110,20 @@ class BadStart(unittest.TestCase):
                 rospy.set_param('/bad/' + name, value)
             rospy.set_param('/bad/slot_position', [0.0, value, 0.0])
             self.assert_refused(*('/bad/%s: ' % name for name in numbers + ('slot_position',)))
+
+    def test_without_a_master_it_waits_and_can_be_ended(self):
+        with socket.socket() as nobody:  # a port at which no master answers
+            nobody.bind(('localhost', 0))
+            environment = dict(os.environ, ROS_MASTER_URI='http://localhost:%d' % nobody.getsockname()[1])
+            for number in (signal.SIGINT, signal.SIGTERM):
+                for arguments in ((), ('_scene_file:=' + scene_path('small'),)):  # roscpp waits at two places
+                    process = subprocess.Popen((program('aligner_node'), '__name:=bad') + arguments, env=environment,
+                                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                    self.addCleanup(process.kill)
+                    with self.assertRaises(subprocess.TimeoutExpired):
+                        process.wait(timeout=1.0)
+                    process.send_signal(number)
+                    self.assertEqual(process.wait(timeout=5.0), 0)
 
 
 if __name__ == '__main__':
