@@ -135,18 +135,21 @@ void Aligner::run_trials() {
 void Aligner::wait_for_subscribers() {
   const Clock::time_point now = Clock::now();
   const auto& topics = parameters_.wait_for_subscribers;
-  const bool complete = std::all_of(topics.begin(), topics.end(), [this](const std::string& topic) {
-    return publishers_.at(topic).getNumSubscribers() > 0;
-  });
+  std::string missing;
+  for (const std::string& topic : topics)
+    if (publishers_.at(topic).getNumSubscribers() == 0) missing += (missing.empty() ? "~" : ", ~") + topic;
+  const bool complete = missing.empty();
   if (complete && !all_subscribed_) all_subscribed_at_ = now;
   all_subscribed_ = complete;
   const bool settled = topics.empty() || (complete && now - all_subscribed_at_ >= kSubscriberSettling);
   const bool impatient = now - waiting_since_ >= kSubscriberPatience;
   if (!settled && !impatient) {
-    ROS_INFO_THROTTLE(10.0, "Waiting for subscribers to the topics of ~wait_for_subscribers");
+    if (!complete)
+      ROS_INFO_THROTTLE(10.0, "Waiting for a subscriber to %s, for %lld s at most (~wait_for_subscribers)",
+                        missing.c_str(), static_cast<long long>(kSubscriberPatience.count()));
     return;
   }
-  if (!settled) ROS_WARN("~wait_for_subscribers: not all topics have a subscriber; starting without them");
+  if (!complete) ROS_WARN("No subscriber to %s (~wait_for_subscribers): starting without", missing.c_str());
   set_activity(Activity::paused);
   next_picture_ = {};
   publish_next(not_interrupted());
