@@ -34,16 +34,16 @@ constexpr double kSlipRateRounding = 1e-14;
 /// J, rows of count_ contacts; columns from the most mobile axis to the least: as a row of (V M^-1/2)^T the first must
 /// not cost the digits of the others.
 HoldingForces::Decomposition HoldingForces::decompose() const {
-  Decomposition of;
-  std::sort(of.axes.begin(), of.axes.end(), [&](int a, int b) { return scale_[a] > scale_[b]; });
+  Decomposition result;
+  std::sort(result.axes.begin(), result.axes.end(), [&](int a, int b) { return scale_[a] > scale_[b]; });
   Plane plane = Plane::Zero(count_, 3);
   for (int i = 0; i < count_; ++i) {
     const double row[3] = {rows_[i].x, rows_[i].y, rows_[i].moment / reach_};
     for (int a = 0; a < 3; ++a)
-      if (scale_[of.axes[a]] > 0.0) plane(i, a) = row[of.axes[a]];
+      if (scale_[result.axes[a]] > 0.0) plane(i, a) = row[result.axes[a]];
   }
-  of.qr.compute(plane);
-  return of;
+  result.qr.compute(plane);
+  return result;
 }
 
 int HoldingForces::Decomposition::rank(double singular) {
@@ -53,12 +53,12 @@ int HoldingForces::Decomposition::rank(double singular) {
 
 /// Two steps, for the rank is one of J, the size that of J M^-1/2: J = Q V with orthonormal columns of Q,
 /// (Q V M^-1/2)^+ = (V M^-1/2)^+ Q^T.
-HoldingForces::Factor HoldingForces::factorize(Decomposition& of, double singular) const {
+HoldingForces::Factor HoldingForces::factorize(Decomposition& decomposed, double singular) const {
   using Tall = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
   using Orthonormal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSiteCount, 3>;
-  const auto& [qr, axes] = of;
+  const auto& [qr, axes] = decomposed;
   Factor factor;
-  factor.rank = of.rank(singular);
+  factor.rank = decomposed.rank(singular);
   factor.inverse = Inverse::Zero(3, count_);
   if (factor.rank == 0) return factor;
   Tall tall = Tall::Zero(3, factor.rank);
@@ -120,11 +120,11 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   single_ = {mobility(0), inverse_inertia_[0] * rows[0].x, inverse_inertia_[1] * rows[0].y,
              inverse_inertia_[2] * rows[0].moment};
   if (count == 1 || holds_nothing_) return;
-  Decomposition of = decompose();
-  safe_ = factorize(of, kNearlySame);
-  // of the same rank it would not be asked
-  full_.rank = of.rank(kSame);
-  if (full_.rank != safe_.rank) full_ = factorize(of, kSame);
+  Decomposition decomposed = decompose();
+  safe_ = factorize(decomposed, kNearlySame);
+  // where both are of the same rank, only the first is used
+  full_.rank = decomposed.rank(kSame);
+  if (full_.rank != safe_.rank) full_ = factorize(decomposed, kSame);
   regular_ = safe_.rank == count;
   delicate_ = delicate_ || !regular_;
 }

@@ -90,7 +90,7 @@ class HoldingForces {
     int rank(double singular);
   };
   Decomposition decompose() const;
-  Factor factorize(Decomposition& of, double singular) const;
+  Factor factorize(Decomposition& decomposed, double singular) const;
   void share_alike(double singular, Factor& factor) const;
   Answer hold_with(const Factor& factor, const Vector& rhs) const;
   Answer hold_motion_with(const Factor& factor, const Answer& motion, const Vector& own_rates) const;

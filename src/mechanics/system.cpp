@@ -1,7 +1,6 @@
 #include "mechanics/system.h"
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "mechanics/statics.h"
@@ -24,12 +23,9 @@ Axis make_axis(const GripperAxis& gripper, double anchor) {
 
 /// "x = 0.001 m, phi = 0.02 rad", in the scene's own units.
 std::string place_text(const Scene& scene, const State& place, bool with_phi) {
-  const bool si = scene.units == Units::si;
-  std::ostringstream text;
-  text << "x = " << place.x * output_units(scene).length << (si ? " m" : "");
-  if (with_phi) text << ", phi = " << place.phi << (si ? " rad" : "");
-  if (!si) text << " (dimensionless)";
-  return text.str();
+  std::string text = "x = " + own_unit_text(scene, Quantity::length, place.x);
+  if (with_phi) text += ", phi = " + own_unit_text(scene, Quantity::angle, place.phi);
+  return scene.units == Units::si ? text : text + " (dimensionless)";
 }
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& fault) {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr char kPackage[] = "vibratory_alignment";
 
-/// Folders between one of sources and a package in it, at most.
+/// Folders that may lie between a folder of sources and a package.
 constexpr int kDeepest = 2;
 
 std::string read_text(const fs::path& path) {
@@ -114,8 +114,8 @@ fs::path directory_of(const PackageFileKind& kind) {
   return {};
 }
 
-std::vector<std::string> shipped(const PackageFileKind& kind) {
-  const fs::path directory = directory_of(kind);
+/// Names of those in `directory`, the one of this kind.
+std::vector<std::string> shipped(const PackageFileKind& kind, const fs::path& directory) {
   if (directory.empty()) return {};
   if (kind.only != nullptr) return {kind.only};
   return yaml_names(directory.string());
@@ -152,7 +152,7 @@ std::string find_package_file(const PackageFileKind& kind, const std::string& na
   if (is_folder(name)) throw NoSuchFile(name + ": is a directory; a " + word + " is a YAML file");
   std::string message = name + ": no such file, and no " + word + " of that name comes with the package";
   std::string separator = " (these do: ";
-  for (const std::string& candidate : shipped(kind)) {
+  for (const std::string& candidate : shipped(kind, directory)) {
     message += separator + candidate;
     separator = ", ";
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace vibratory_alignment {
 namespace {
@@ -47,6 +48,15 @@ const char* si_unit(Quantity quantity) {
     case Quantity::frequency: return "Hz";
   }
   return "";
+}
+
+std::string own_unit_text(const Scene& scene, Quantity quantity, double value) {
+  std::ostringstream text;
+  if (scene.units == Units::si)
+    text << value * si_size(quantity, *scene.scales) << ' ' << si_unit(quantity);
+  else
+    text << value;
+  return text.str();
 }
 
 double si_size(Quantity quantity, const Scales& scales) {

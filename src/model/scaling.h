@@ -31,6 +31,9 @@ const char* si_unit(Quantity quantity);
 /// What 1 dimensionless unit of the quantity is in that SI unit.
 double si_size(Quantity quantity, const Scales& scales);
 
+/// "0.25 m": a dimensionless value in the scene's own unit; "0.25" of a dimensionless scene.
+std::string own_unit_text(const Scene& scene, Quantity quantity, double value);
+
 /// M and K_Y from the gripper's y axis; F1 is the largest excitation force along y, or along x if there is none along
 /// y, or K_Y half_width if there is neither. `in_si` is a scene whose numbers are still in SI units.
 Scales natural_scales(const Scene& in_si);

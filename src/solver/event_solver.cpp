@@ -279,7 +279,8 @@ void EventSolver::take_step(double longest, bool contact) {
   }
   if (!std::isfinite(last_terms(segment_))) throw SolverFailure("the motion is no longer finite");
   segment_.coarse = implicit_now_;
-  segment_.duration = shortened(step, longest, point_tolerance, contact);
+  segment_.duration = bounded_step(step, longest, point_tolerance, contact);
+  if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
   if (!(segment_.duration >= 0.0)) throw SolverFailure("the motion is no longer finite");
 
   // contacts that have been found to stick here, though they part within the step, hold for a part of it
@@ -304,7 +305,7 @@ void EventSolver::take_step(double longest, bool contact) {
 
 /// Of a step of the motion, at most `longest`, the part over which all that events are sought in holds as well: the
 /// series of the points turn with the part; those of the other edge and the corners follow from these.
-double EventSolver::shortened(double step, double longest, double point_tolerance, bool contact) {
+double EventSolver::bounded_step(double step, double longest, double point_tolerance, bool contact) {
   step = std::min({step, longest, direction_step(step, point_tolerance)});
   if (implicit_now_ && step < implicit_length_) {
     const double shorter = shorten_implicit_step(step);
@@ -313,7 +314,6 @@ double EventSolver::shortened(double step, double longest, double point_toleranc
   if (!contact && system_.contacts.edges)
     for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
       step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
-  if (!implicit_now_) counts_.rhs_evaluations += segment_.order;
   if (system_.recovery)
     for (const Recovery& recovery : mode_.recoveries)
       if (recovery.deformation > 0.0)

@@ -31,7 +31,7 @@ class EventSolver final : public Solver {
   void begin_segment(bool contact);
   bool leap(double longest, FoundEvents& found);
   void take_step(double longest, bool contact);
-  double shortened(double step, double longest, double point_tolerance, bool contact);
+  double bounded_step(double step, double longest, double point_tolerance, bool contact);
   State flight_state(double duration) const;
   double crossing_time(double found, const Event& event) const;
   double first_crossing(const FoundEvents& found) const;

@@ -119,8 +119,8 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   set_motion(k, {}, segment);
   negated_slip_rates(k, segment, rates);
   for (int m = 0; m < sticking_count_; ++m) own[m] = -rates[m];
-  const bool noise_counts = !holding_.regular() && (k < kHeldPowers || holding_.tells_apart_by_noise());
-  for (int m = 0; m < sticking_count_ && noise_counts; ++m)
+  const bool needs_noise = !holding_.regular() && (k < kHeldPowers || holding_.tells_apart_by_noise());
+  for (int m = 0; m < sticking_count_ && needs_noise; ++m)
     noise[m] = kSlipRateRounding * slip_rate_size(contacts_[sticking_[m]], k, segment);
   HoldingForces::Answer held = holding_.hold_motion(free, own, noise);
   const auto take = [&] {
@@ -136,7 +136,7 @@ void MotionSeries::hold_sticking(int k, Segment& segment) {
   }
   // the rounding of these large forces is no motion
   negated_slip_rates(k, segment, rates);
-  if (noise_counts) noise.fill(kSlipRateRounding * motion_size(k, k + 2, segment));
+  if (needs_noise) noise.fill(kSlipRateRounding * motion_size(k, k + 2, segment));
   HoldingForces::Answer correction = holding_.hold(rates, noise);
   if (correction.told_apart && !held.told_apart) {  // T are then those of the motion, told apart as well
     held = holding_.hold_motion(free, own, {});

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <ctime>
 #include <exception>
-#include <sstream>
 #include <string>
 
 #include "mechanics/statics.h"
@@ -178,15 +177,13 @@ class Simulation::Impl {
     }
   }
 
-  /// Where the last segment that has been passed ends, the next one has failed, or what came of it.
+  /// The trial ends where the last segment that was passed does.
   void fail(const std::string& reason) {
-    const OutputUnits units = output_units(scene_);
-    const bool si = scene_.units == Units::si;
-    std::ostringstream text;
-    text << reason << " at time " << time_ * units.time << (si ? " s" : " (dimensionless)")
-         << ", x = " << state_.x * units.length << (si ? " m" : "") << ", y = " << state_.y * units.length
-         << (si ? " m" : "") << ", phi = " << state_.phi << (si ? " rad" : "");
-    failure_ = text.str();
+    failure_ = reason + " at time " + own_unit_text(scene_, Quantity::time, time_) +
+               (scene_.units == Units::si ? "" : " (dimensionless)") +
+               ", x = " + own_unit_text(scene_, Quantity::length, state_.x) +
+               ", y = " + own_unit_text(scene_, Quantity::length, state_.y) +
+               ", phi = " + own_unit_text(scene_, Quantity::angle, state_.phi);
     outcome_ = Outcome::failed;
     end();
   }
