@@ -2,11 +2,13 @@
 // SIGINT, SIGTERM and `rosnode kill` end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene,
 // bad parameters).
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
@@ -20,18 +22,23 @@
 
 namespace {
 
-/// How far the node has come. Until it spins it may wait for a master, in roscpp.
-enum class Progress { before_start, starting, spinning };
-
-std::atomic<bool> interrupted{false};
-std::atomic<Progress> progress{Progress::before_start};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<Progress>::is_always_lock_free,
-              "a signal handler uses them");
+std::atomic<bool> interrupted{false}, initialized{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler uses them");
 
 extern "C" void on_signal(int) {
   interrupted = true;
-  if (progress == Progress::before_start) std::_Exit(EXIT_SUCCESS);  // nobody knows of the node as yet
-  if (progress == Progress::starting) ros::requestShutdown();
+  // ros::init() waits for a master to give it the command line's parameters; nobody knows of the node as yet
+  if (!initialized) std::_Exit(EXIT_SUCCESS);
+}
+
+/// The process of the master, once one answers: waits for it as roscpp would, but not beyond a signal, then 0.
+int wait_for_master() {
+  constexpr std::chrono::milliseconds kInterval(50);
+  for (bool told = false; !interrupted; told = true, std::this_thread::sleep_for(kInterval)) {
+    if (const int master = vibratory_alignment::master_process()) return master;
+    if (!told) ROS_ERROR("No master answers at %s. Waiting for one ...", ros::master::getURI().c_str());
+  }
+  return 0;
 }
 
 /// `rosnode kill`, or another node that takes this one's name.
@@ -54,8 +61,9 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
-  const int master = master_process();
-  progress = Progress::starting;
+  initialized = true;
+  const int master = wait_for_master();
+  if (master == 0) return EXIT_SUCCESS;
   const ros::NodeHandle private_handle("~");
   // roscpp's own answer would shut ROS down before a goal can be ended
   ros::XMLRPCManager::instance()->unbind("shutdown");
@@ -66,10 +74,9 @@ int main(int argc, char** argv) {
     const NodeParameters parameters = read_node_parameters(private_handle, scene);
     warn_of_unread_settings(private_handle, DriveSettings(scene, parameters.time_scale).config());
     Aligner aligner(private_handle, scene, parameters, master);
-    progress = Progress::spinning;
     aligner.spin([] { return interrupted.load(); });
   } catch (const std::exception& error) {
-    if (!interrupted) return fail(error.what());
+    return fail(error.what());
   }
   return EXIT_SUCCESS;
 }
