@@ -209,7 +209,7 @@ void EventSolver::go_to_end() {
     rings = rings || rings_base(kind);
   }
   if (segment_.event_count > 0) implicit_.restart(rings);
-  if (rings) choice_.ring();
+  if (rings) ring();
 }
 
 /// Flies in one segment in closed form, without series, to the next event if that is certain, or as far as nothing can
@@ -222,6 +222,7 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
                  outcomes_, std::min(longest, kLongestFlightSegment / rate));
   if (!outlook.lands && outlook.time < longest && outlook.time * series_rate < kShortestFlight) return false;
   segment_.flight = &flight_;
+  segment_.coarse = false;
   segment_.order = 0;
   segment_.loaded_count = 0;
   segment_.duration = outlook.time;
@@ -405,7 +406,7 @@ void EventSolver::forces_jump() {
   in_flight_ = false;
   if (!started_) return;
   implicit_.restart(true);
-  choice_.ring();
+  ring();
   const Instant end = segment_.start + segment_.duration;
   if (!mode_changes_) {
     next_mode_ = mode_;

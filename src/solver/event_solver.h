@@ -6,6 +6,7 @@
 #include "solver/flight.h"
 #include "solver/implicit_step.h"
 #include "solver/method_choice.h"
+#include "solver/ring_watch.h"
 #include "solver/series_reach.h"
 #include "solver/solver.h"
 #include "solver/transitions.h"
@@ -40,7 +41,10 @@ class EventSolver final : public Solver {
   double series_contact_step(double longest, const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
+  double implicit_or_ring_step(double longest, const DriveForms& drives);
   double chosen_contact_step(double longest, const DriveForms& drives);
+  double length_over_ring(double longest, const DriveForms& drives);
+  void ring();
   bool has_event(double step, const DriveForms& drives);
   double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
   double shorten_implicit_step(double step);
@@ -85,6 +89,8 @@ class EventSolver final : public Solver {
   ImplicitStep implicit_;
   bool implicit_now_ = false;     ///< the current segment is an implicit step
   double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
+  double series_step_ = 0.0;      ///< last step of the series in contact, whose series the segment still has; or 0
+  RingWatch ring_watch_;          ///< implicit
   MethodChoice choice_;           ///< automatic
   StepEffort effort_before_;      ///< automatic: until the present step
   Segment segment_;

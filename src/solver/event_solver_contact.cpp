@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/event_solver.h"
+#include "solver/fast_motion.h"
 #include "solver/held_state.h"
 #include "solver/series_noise.h"
 #include "solver/step_size.h"
@@ -41,17 +42,12 @@ constexpr double kExcessFriction = 1e-8, kTooMuchFriction = 1e-3;
 /// Factor on rounding beyond which sticking contacts have to move apart, and on what friction has left of their V'.
 constexpr double kPartAllowance = 10.0, kLeftAgain = 2.0;
 
-/// Bound of the change of a normal force over the time t, as a share of that force: the largest of the contacts.
-double normal_force_change(const Segment& segment, double t) {
-  double most = 0.0;
-  for (int i = 0; i < segment.loaded_count; ++i) {
-    const Series& force = segment.loaded[i].normal_force;
-    double change = 0.0;
-    for (int k = segment.order; k > 0; --k) change = (change + std::abs(force[k])) * t;
-    most = std::max(most, change / force[0]);
-  }
-  return most;
-}
+/// Where powers of a normal force beyond the first change it by this share in a step of the series, more may ring than
+/// their last terms show.
+constexpr double kQuiet = 0.1;
+
+/// Length that is worth an implicit step, in steps of the series.
+constexpr double kWorthwhile = 4.0;
 
 }  // namespace
 
@@ -82,8 +78,8 @@ double EventSolver::expand_contact(double longest, const DriveForms& drives) {
 
 /// The same, once friction holds what is said to stick.
 double EventSolver::series_contact_step(double longest, const DriveForms& drives) {
-  const double step = expand_contact(longest, drives);
-  if (excess_friction(system_, segment_, step) <= kExcessFriction) return step;
+  series_step_ = expand_contact(longest, drives);
+  if (excess_friction(system_, segment_, series_step_) <= kExcessFriction) return series_step_;
   segment_.duration = 0.0;
   segment_.end = state_;
   for (std::size_t i = 0; i < kSiteCount; ++i)
@@ -91,10 +87,10 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
   decide_friction_anew(system_, segment_, drives, friction_, mode_);
   for (std::size_t i = 0; i < kSiteCount; ++i) segment_.contacts[i].slip = mode_.contacts[i].slip;
   segment_.begin = state_ = hold_sticking(system_, state_, mode_.contacts);
-  const double new_step = expand_contact(longest, drives);
-  if (excess_friction(system_, segment_, new_step) > kTooMuchFriction)
+  series_step_ = expand_contact(longest, drives);
+  if (excess_friction(system_, segment_, series_step_) > kTooMuchFriction)
     throw SolverFailure("no contact state is consistent");
-  return new_step;
+  return series_step_;
 }
 
 /// Longest part of a step over which the series of cos phi and sin phi hold. The last terms of a power series show what
@@ -115,8 +111,40 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     return series_contact_step(longest, drives);
   }
   if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
-  const double step = implicit_contact_step({longest}, drives);
-  return step > 0.0 ? step : series_contact_step(longest, drives);
+  return implicit_or_ring_step(longest, drives);
+}
+
+/// Implicit: one by the series while the base rings, else an implicit one.
+double EventSolver::implicit_or_ring_step(double longest, const DriveForms& drives) {
+  if (!ring_watch_.series_follow()) {
+    const double step = implicit_contact_step(ring_watch_.bounds(longest), drives);
+    if (step > 0.0) {
+      ring_watch_.settle_implicit(step < longest && implicit_.follows_base(step, drives));
+      return step;
+    }
+    ring_watch_.give_up_implicit();
+  }
+  const double step = series_contact_step(longest, drives);
+  if (!ring_watch_.asks(step)) return step;
+  const double length = length_over_ring(longest, drives);
+  if (length > 0.0) {
+    ring_watch_.pass_over();
+    implicit_.suggest(length);
+  }
+  return step;
+}
+
+/// Length of an implicit step that passes over what the last step, one of the series, shows to ring; 0 when there is
+/// none.
+double EventSolver::length_over_ring(double longest, const DriveForms& drives) {
+  if (normal_force_change(segment_, std::min(series_step_, longest), 2) >= kQuiet) return 0.0;
+  return implicit_.length_over(fast_motion(system_, segment_), kWorthwhile * series_step_, longest, drives, segment_);
+}
+
+/// The normal forces jump: the base rings.
+void EventSolver::ring() {
+  ring_watch_.ring();
+  choice_.ring();
 }
 
 /// True when the series of a contact step have an event within `step`.
@@ -138,7 +166,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
       return step;
     }
     choice_.start_passing_over(step);
-  } else if (choice_.starts_trial(longest)) {
+  } else if (choice_.may_start(longest) && choice_.starts(length_over_ring(longest, drives), longest)) {
     implicit_.suggest(choice_.trial_length());
   } else if (choice_.asks_series()) {
     choice_.learn_pace(expand_contact(0.0, drives));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace vibratory_alignment {
 namespace {
@@ -17,6 +18,18 @@ constexpr double kRestartGrowth = 2.0;
 /// one is not resolved, and the error estimate filters it out.
 constexpr double kLongestDrive = 1.5;
 
+/// A motion of a rate that times the step is less than this is followed, not passed over; the step is short if it is
+/// also shorter than this share of what the excitation allows.
+constexpr double kResolved = 5.0, kShortForDrive = 0.3;
+
+/// A ring is passed over where a step of this length, over 1/(lambda_0 rate), may do so; and where it is no faster than
+/// what rounding of the coordinates leaves, times the second.
+constexpr double kLongRing = 3.0, kRingOfRounding = 10.0;
+
+/// Where a step would pass over more than it may, a shorter one is tried with this share of its length, which still
+/// passes over the fast motion: it is so many times as long as that motion's rate asks for.
+constexpr double kShorter = 0.2, kFarOver = 25.0;
+
 /// A step whose equations do not converge is tried again with this share of its length.
 constexpr double kRetry = 0.5;
 
@@ -28,9 +41,6 @@ constexpr double kNegligible = 1e-2;
 
 /// Amplitude of what a trial's first step may pass over, as a multiple of its tolerance, in lengths of the part.
 constexpr double kPassedOver = 100.0;
-
-/// Nodes that lead back to the velocity of a start without ring.
-constexpr std::size_t kFirstNodes = 3;
 
 double longest_drive_step(const DriveForms& drives) {
   double fastest = 0.0;
@@ -72,10 +82,7 @@ ImplicitStep::ImplicitStep(const System& system, double tolerance)
 void ImplicitStep::restart(bool base_rings) {
   restarts_ = !base_rings;
   taken_ = false;
-  if (base_rings)
-    next_step_ = base_time_;
-  else if (restart_step_ > 0.0)
-    next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
+  if (!base_rings && restart_step_ > 0.0) next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
 }
 
 /// What the polynomial of the accelerations misses at the start.
@@ -102,22 +109,19 @@ double ImplicitStep::error(double h) const {
   return h * collocation().eigenvalue[0].real() * size;
 }
 
-/// What the velocities miss at the start: the step begins with it and goes on, from its first node, as if it had begun
-/// with the one that its first nodes lead back to.
-StageAxes ImplicitStep::velocity_missed_at_start() const {
+/// Speed that the polynomial of the velocities at the nodes misses at the start: the one of all motions that the step
+/// passes over, which are over at the nodes.
+double ImplicitStep::speed_missed_at_start() const {
   const Collocation& table = collocation();
   const State& start = equations_.start();
   StageAxes missed = {start.vx, start.vy, start.omega};
-  for (std::size_t i = 0; i < kFirstNodes; ++i) {
-    double weight = 1.0;
-    for (std::size_t j = 0; j < kFirstNodes; ++j)
-      if (j != i) weight *= table.node[j] / (table.node[j] - table.node[i]);
-    const State& stage = equations_.stage(i);
-    missed[0] -= weight * stage.vx;
-    missed[1] -= weight * stage.vy;
-    missed[2] -= weight * stage.omega;
+  for (std::size_t j = 0; j < kStages; ++j) {
+    const State& stage = equations_.stage(j);
+    missed[0] -= table.at_start[j] * stage.vx;
+    missed[1] -= table.at_start[j] * stage.vy;
+    missed[2] -= table.at_start[j] * stage.omega;
   }
-  return missed;
+  return equations_.size_of(missed);
 }
 
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
@@ -126,7 +130,7 @@ StageAxes ImplicitStep::velocity_missed_at_start() const {
 bool ImplicitStep::passes_over_too_much(double h) const {
   const double length = h * collocation().eigenvalue[0].real();
   return length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_ ||
-         slow_base_time_ * equations_.size_of(velocity_missed_at_start()) > most_passed_over_;
+         slow_base_time_ * speed_missed_at_start() > most_passed_over_;
 }
 
 double ImplicitStep::take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
@@ -138,32 +142,35 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   const double longest = std::min(bounds.longest, longest_drive_step(drives));
   const double shortest = std::max(bounds.shortest, kShortest * longest);
   const long evaluations_before = counts.rhs_evaluations;
+  const FastMotion over = std::exchange(over_, kAnything);
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
-  const bool passes_over = at_start_ && bounds.shortest > 0.0;
   double last_error = std::numeric_limits<double>::infinity();
-  bool tried = false, very_first = at_start_;
+  bool tried = false;
   for (; h > shortest; tried = true, ++counts.rejected) {
-    if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return 0.0;
+    if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return give_up(h);
     if (!equations_.solve(h, counts, bounds.easily)) {
-      if (bounds.easily) return 0.0;
+      if (bounds.easily) return give_up(h);
       h *= kRetry;
       continue;
     }
     const double ratio = error(h) / equations_.allowed(h);
     const double factor = growth(h, ratio);
     if (ratio > 1.0) {
-      if (passes_over && ratio > last_error) return 0.0;
+      if (bounds.passes_over && ratio > last_error) return give_up(h);
       last_error = ratio;
       h *= std::min(0.9, factor);
       continue;
     }
-    if (very_first && h > base_time_ && passes_over_too_much(h)) {
-      very_first = false;
-      h = base_time_;
+    if (at_start_ && h > base_time_ && passes_over_too_much(h)) return 0.0;
+    if (speed_missed_at_start() > std::max(over.speed, equations_.allowed(h))) {
+      // a slower ring: a shorter step may follow it that still passes over the fast one
+      h *= kShorter;
+      if (h * over.rate < kFarOver) return 0.0;
       continue;
     }
     // a step that was cut short says nothing about longer ones; after a shorter one nothing speaks for a longer one
     next_step_ = std::max(h == longest ? next_step_ : 0.0, h * std::clamp(factor, 0.5, tried ? 1.0 : kMostGrowth));
+    known_step_ = next_step_;
     last_length_ = h;
     last_ratio_ = std::max(ratio, kNegligible);
     if (restarts_) restart_step_ = h;
@@ -172,7 +179,33 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
     fill(h, segment);
     return h;
   }
+  return give_up(h);
+}
+
+/// A step of this length was not good enough.
+double ImplicitStep::give_up(double h) {
+  if (known_step_ > 0.0) known_step_ = std::min(known_step_, h);
   return 0.0;
+}
+
+/// The error of a step that passes over a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|, of which rebounds
+/// may make much more where the step is long: it is asked for as in one of kLongRing of the motion's rate at most.
+double ImplicitStep::length_over(const FastMotion& motion, double least, double longest, const DriveForms& drives,
+                                 const Segment& segment) {
+  double h = std::min(longest, longest_drive_step(drives));
+  if (known_step_ > 0.0) h = std::min(h, std::max(known_step_, least));
+  over_ = kAnything;
+  if (h * motion.rate < kResolved) return h;
+  const double eigenvalue = collocation().eigenvalue[0].real();
+  const double z = std::min(kLongRing, h * eigenvalue * motion.rate), left = 1.0 + z * z;
+  const double most_speed = std::max(equations_.allowed_from(segment, z / (eigenvalue * motion.rate)) * left * left / z,
+                                     kRingOfRounding * equations_.place_rounding(segment) * motion.rate);
+  over_ = {motion.rate, most_speed};
+  return motion.speed <= most_speed ? h : 0.0;
+}
+
+bool ImplicitStep::follows_base(double step, const DriveForms& drives) const {
+  return step < kResolved * base_time_ && step < kShortForDrive * longest_drive_step(drives);
 }
 
 /// Next length over h after an error of `ratio` times the one allowed: that of order s, and where errors have risen

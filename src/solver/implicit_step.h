@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "solver/fast_motion.h"
 #include "solver/motion_series.h"
 #include "solver/stage_equations.h"
 
@@ -16,6 +17,8 @@ struct StepBounds {
   double shortest = 0.0;
   long evaluations = std::numeric_limits<long>::max();  ///< of the forces, after which no further length is tried
   bool easily = false;  ///< given up at the first length whose equations are not solved in a few iterations
+  /// Given up when a shorter length has the larger error: it begins to see a ring that the longer one passes over.
+  bool passes_over = false;
 };
 
 class ImplicitStep {
@@ -24,9 +27,8 @@ class ImplicitStep {
   ImplicitStep(const System& system, double tolerance);
 
   /// Takes a step from `start` with the loaded contacts of segment.contacts and fills the segment's series with its
-  /// polynomials (powers of the time since its start). Returns its length, 0 when none within `bounds` is found. The
-  /// very first one, if `bounds` limit its length from below, is given up when a shorter length has the larger error:
-  /// it begins to see a ring of the base that the longer one passes over. Counts forces and rejected steps.
+  /// polynomials (powers of the time since its start). Returns its length, 0 when none within `bounds` is found, nor
+  /// one at the start of the trial that passes over no more than it may. Counts forces and rejected steps.
   double take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
               SolverCounts& counts);
 
@@ -38,11 +40,20 @@ class ImplicitStep {
   /// Time has passed: the steps to come are none at the start of the trial.
   void leave_start() { at_start_ = false; }
 
+  /// Length of a step that passes over this motion, with an error within its tolerance, or is so short that it follows
+  /// it; 0 when there is none. `segment` begins with the speeds and normal forces of now; a step of `least` is tried
+  /// even where the last one had to be shorter.
+  double length_over(const FastMotion& motion, double least, double longest, const DriveForms& drives,
+                     const Segment& segment);
+
+  /// True when a step of this length is so short for the base alone, in which it then sees every ring.
+  bool follows_base(double step, const DriveForms& drives) const;
+
   /// Length that the next step is tried with first.
   void suggest(double step) { next_step_ = step; }
 
   /// The forces have just jumped: the next step is as short as the one after the last jump could be. `base_rings`: the
-  /// normal forces are among them, and the next step follows the base.
+  /// normal forces are among them, and the next step has a length of its own (`suggest`).
   void restart(bool base_rings);
 
   /// The motion does not go on from the end of the last step.
@@ -56,9 +67,11 @@ class ImplicitStep {
 
  private:
   static constexpr int kStages = Collocation::kStages;
+  static constexpr FastMotion kAnything{0.0, std::numeric_limits<double>::infinity()};
 
+  double give_up(double h);
   StageAxes missed_at_start() const;
-  StageAxes velocity_missed_at_start() const;
+  double speed_missed_at_start() const;
   double error(double h) const;
   bool passes_over_too_much(double h) const;
   double growth(double h, double ratio) const;
@@ -66,6 +79,8 @@ class ImplicitStep {
 
   StageEquations equations_;
   double base_time_, slow_base_time_, most_passed_over_;
+  double known_step_ = 0.0;                      ///< of steps that are good enough, as far as the last ones tell
+  FastMotion over_ = kAnything;                  ///< what the next step passes over, with the most speed that it may
   double next_step_ = 0.0;                       ///< length that the last step suggests
   double restart_step_ = 0.0;                    ///< length of the first step after the last jump
   double last_length_ = 0.0, last_ratio_ = 1.0;  ///< of the last step, and its error over the one allowed

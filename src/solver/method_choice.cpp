@@ -1,6 +1,7 @@
 #include "solver/method_choice.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vibratory_alignment {
 namespace {
@@ -44,12 +45,18 @@ constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
 /// series have to go for so much on the way to the next kink.
 constexpr double kTrial = 0.8, kFirstTrialInLayer = 1.65, kLongWay = 200.0;
 
-/// Series steps in one contact before an implicit one is tried; after a ring that had been left to the series; and
-/// until their pace is known.
-constexpr int kTrialAfter = 32, kTrialAfterRing = 6, kPaceKnown = 6;
+/// Length of a trial, as a multiple of the one that would pay, and the same that an implicit step is to have where it
+/// is taken again once the base rings no more.
+constexpr double kTrialGain = 2.0, kResumeGain = 1.5;
 
-/// Implicit steps in a ring that do not pay before it is left to the series.
-constexpr int kMostLosses = 2;
+/// Series steps before that is tried again where it was given up; after each further time twice as many.
+constexpr int kWait = 4;
+
+/// Series steps to come that grow as the last one did, and how many times as long they become at most.
+constexpr double kGrowingSteps = 4.0, kMostGrown = 4.0;
+
+/// Series steps in one contact before an implicit one is tried, and until their pace is known.
+constexpr int kTrialAfter = 32, kPaceKnown = 6;
 
 /// Evaluations of the forces after which an implicit step is given up: any, and a trial; in between, what there is
 /// credit for. The first trial outside the layer, which comes early, is given up sooner.
@@ -108,6 +115,7 @@ void MethodChoice::leave_to_series(int steps) {
   implicit_steps_ = 0;
   next_question_ = kFirstQuestion;
   series_steps_ = 0;
+  last_way_ = 0.0;
   patience_ = steps;
 }
 
@@ -128,27 +136,40 @@ void MethodChoice::start_passing_over(double step) {
   attempt_ = Attempt::passes_over;
 }
 
-bool MethodChoice::starts_trial(double longest) {
-  if (implicit_ || series_steps_ < patience_) return false;
+bool MethodChoice::may_start(double longest) const {
+  // where events coincide the series go nowhere, and say nothing
+  if (implicit_ || last_way_ == 0.0 || pace() == 0.0) return false;
   const bool soon = tried_ || kind_ < kInLayer || longest > kLongWay * pace();
   const double needed = (soon ? kTrial : kFirstTrialInLayer) * kKind[kind_].usual_implicit();
-  // where events coincide the series go nowhere, and say nothing
-  if (credit_ < needed || pace() == 0.0) return false;
+  return credit_ >= needed && ((paid_ && series_steps_ >= wait_) || series_steps_ >= patience_);
+}
+
+bool MethodChoice::starts(double length_over_ring, double longest) {
+  if (length_over_ring <= 0.0) return false;
+  // where the ring decays the steps of the series grow, and go on to
+  const double grown = way_before_ > 0.0 ? std::pow(last_way_ / way_before_, kGrowingSteps) : kUndisturbed;
+  const double way = std::max(pace(), std::clamp(grown, kUndisturbed, kMostGrown) * last_way_);
+  const double usual = kKind[kind_].usual_implicit();
+  const bool resumes = paid_ && series_steps_ >= wait_ && std::min(length_over_ring, longest) > kResumeGain * usual * way;
+  if (!resumes && series_steps_ < patience_) return false;
   attempt_ = tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
+  if (resumes) paces_[kind_] = {way, std::max(paces_[kind_].steps, kPaceKnown)};
+  resumed_length_ = resumes ? length_over_ring : 0.0;
   return true;
 }
 
-/// Twice the length that would pay.
-double MethodChoice::trial_length() const { return 2.0 * kKind[kind_].usual_implicit() * pace(); }
+double MethodChoice::trial_length() const {
+  return resumed_length_ > 0.0 ? resumed_length_ : kTrialGain * kKind[kind_].usual_implicit() * pace();
+}
 
 StepBounds MethodChoice::bounds(double longest) const {
   switch (attempt_) {
     case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};
-    case Attempt::trial: return {longest, kShortestTrial * pace(), kMostTrialEvaluations};
+    case Attempt::trial: return {longest, kShortestTrial * pace(), kMostTrialEvaluations, false, resumed_length_ > 0.0};
     case Attempt::passes_over:
       return {longest, kShortestPassing * pace(),
-              sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations, !sticks(kind_)};
+              sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations, !sticks(kind_), true};
     case Attempt::ordinary: break;
   }
   const auto paid = static_cast<long>(credit_ / kKind[kind_].evaluation);
@@ -178,6 +199,8 @@ void MethodChoice::earn() {
 void MethodChoice::settle_series(double gone, double longest) {
   if (gone > 0.0) may_pass_over_ = false;
   if (gone == longest) return;  // cut short by a kink or the limit, it says nothing
+  way_before_ = last_way_;
+  last_way_ = gone / kKind[kind_].series;
   Pace& pace = paces_[kind_];
   pace.steps = std::min(pace.steps + 1, kTrialAfter);
   pace.way += (gone / kKind[kind_].series - pace.way) / pace.steps;
@@ -186,8 +209,10 @@ void MethodChoice::settle_series(double gone, double longest) {
 void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
   if (gone > 0.0) may_pass_over_ = false;
   attempt_ = Attempt::ordinary;
+  wait_ = 0;
   ++implicit_steps_;
   const double gain = gone / pace() - kKind[kind_].implicit(effort);
+  paid_ = paid_ || gain > 0.0;
   // cut short by a kink or the limit, it has not lost
   if (!(gone == longest && gain < 0.0)) book_implicit(gain);
 }
@@ -195,26 +220,20 @@ void MethodChoice::settle_implicit(double gone, double longest, const StepEffort
 void MethodChoice::give_up_implicit(const StepEffort& effort) {
   // what the question whether a ring can be passed over has cost says nothing about implicit steps
   if (attempt_ != Attempt::passes_over) book_implicit(-kKind[kind_].implicit(effort));
+  if (attempt_ == Attempt::trial && resumed_length_ > 0.0) wait_ = std::max(kWait, 2 * wait_);
   attempt_ = Attempt::ordinary;
   if (implicit_) leave_to_series(kTrialAfter);
 }
 
 void MethodChoice::book_implicit(double gain) {
   credit_ = std::min(credit_ + gain, kMostCredit);
-  rings_ = rings_ && gain < 0.0;
-  ++losses_;
-  if (rings_ && losses_ >= kMostLosses) {
-    losses_ = 0;
-    leave_to_series(kTrialAfterRing);
-  } else if (credit_ <= 0.0) {
-    leave_to_series(kTrialAfter);
-  }
+  if (credit_ <= 0.0) leave_to_series(kTrialAfter);
 }
 
 void MethodChoice::ring() {
   may_pass_over_ = false;
-  rings_ = true;
-  losses_ = 0;
+  if (implicit_) leave_to_series(kTrialAfter);
+  last_way_ = 0.0;
 }
 
 void MethodChoice::leave_contact() {

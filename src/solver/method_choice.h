@@ -40,9 +40,13 @@ class MethodChoice {
   /// An implicit step is due that passes over the ring.
   void start_passing_over(double step);
 
-  /// True when an implicit step is to be tried now, where it may be `longest`: it is due then, and begins with the
-  /// length `trial_length`.
-  bool starts_trial(double longest);
+  /// True when an implicit step may be tried now, where it may be `longest`, provided that it passes over what rings:
+  /// the last step is one of the series that shows it.
+  bool may_start(double longest) const;
+
+  /// Asked when it may: one of this length passes over it; 0: none does. True when one is to be tried now: it is due
+  /// then, and begins with the length `trial_length`.
+  bool starts(double length_over_ring, double longest);
   double trial_length() const;
 
   /// Bounds of the implicit step that is due, of at most `longest`.
@@ -95,13 +99,16 @@ class MethodChoice {
   bool may_pass_over_ = true;
   Attempt attempt_ = Attempt::ordinary;
   bool tried_ = false;      ///< a trial has been made
+  bool paid_ = false;       ///< an implicit step has gained
+  double resumed_length_ = 0.0;  ///< of the trial, if it goes on where implicit steps have paid; 0: it does not
+  int wait_ = 0;  ///< series steps before that is tried again
+  /// How far the last series steps went for a cost of 1; 0: none since a ring began or an implicit step was taken.
+  double last_way_ = 0.0, way_before_ = 0.0;
   double credit_ = 0.0;     ///< what implicit steps may lose
   int series_steps_ = 0;    ///< in this contact since the last implicit step
   int patience_;            ///< of these, before an implicit step is tried
   int implicit_steps_ = 0;  ///< since the series went last
   int next_question_;       ///< of these, before the series are asked how far they would go
-  bool rings_ = false;      ///< no implicit step has paid since the base was made to ring
-  int losses_ = 0;          ///< implicit steps since then, or since it was last left to the series
 };
 
 }  // namespace vibratory_alignment

@@ -108,7 +108,7 @@ void StageEquations::linearise_stages(double h) {
 /// left of it without its stiff part is how far velocities are known: no iteration converges and no error is known
 /// beyond it.
 void StageEquations::set_rounding(double h) {
-  const double length = std::abs(start_.x) + std::abs(start_.y) + system_.half_width + system_.base_distance;
+  const double length = size_of_place(start_.x, start_.y);
   const double speed = std::abs(start_.vx) + std::abs(start_.vy);
   noise_ = rounding_ = 0.0;
   const auto add = [&](const Eigen::Matrix3d& matrix, int column, double size) {
@@ -154,7 +154,17 @@ double StageEquations::speed_scale(double h) const {
   double most = std::abs(start_.vx) + std::abs(start_.vy) + reach * std::abs(start_.omega), push = 0.0;
   for (const State& s : stage_) most = std::max(most, std::abs(s.vx) + std::abs(s.vy) + reach * std::abs(s.omega));
   for (int i = 0; i < start_forces_.count; ++i) push += std::abs(start_forces_.contact[i].normal_force);
-  return most + h * push * std::max(system_.x.inverse_inertia, system_.y.inverse_inertia);
+  return most + speed_of_push(push, h);
+}
+
+/// What a force makes of the part's speed in the time h.
+double StageEquations::speed_of_push(double push, double h) const {
+  return h * push * std::max(system_.x.inverse_inertia, system_.y.inverse_inertia);
+}
+
+/// Coordinates are exact to kRounding of this.
+double StageEquations::size_of_place(double x, double y) const {
+  return std::abs(x) + std::abs(y) + system_.half_width + system_.base_distance;
 }
 
 StageAxes StageEquations::filter(const StageAxes& acceleration) const {
@@ -178,6 +188,16 @@ double StageEquations::size_of(const StageAxes& acceleration) const {
 }
 
 double StageEquations::allowed(double h) const { return std::max(tolerance_ * speed_scale(h), rounding_); }
+
+double StageEquations::allowed_from(const Segment& segment, double h) const {
+  double push = 0.0;
+  for (int i = 0; i < segment.loaded_count; ++i) push += std::abs(segment.loaded[i].normal_force[0]);
+  return tolerance_ * (size_of({segment.vx[0], segment.vy[0], segment.omega[0]}) + speed_of_push(push, h));
+}
+
+double StageEquations::place_rounding(const Segment& segment) const {
+  return kRounding * size_of_place(segment.x[0], segment.y[0]);
+}
 
 Stages StageEquations::coupled_correction(const Stages& residual) const {
   Eigen::Matrix<double, kUnknowns, 1> rhs;

@@ -52,6 +52,11 @@ class StageEquations {
   /// Size of an acceleration or a velocity, as one of the part's points.
   double size_of(const StageAxes& acceleration) const;
 
+  /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the
+  /// coordinates there.
+  double allowed_from(const Segment& segment, double h) const;
+  double place_rounding(const Segment& segment) const;
+
  private:
   void evaluate(const State& state, const Load3& drive, Forces& forces, SolverCounts& counts) const;
   bool iterate(double h, bool coupled, int most_iterations, SolverCounts& counts);
@@ -61,6 +66,8 @@ class StageEquations {
   Stages coupled_correction(const Stages& residual) const;
   double place_stages(double h);
   double speed_scale(double h) const;
+  double speed_of_push(double push, double h) const;
+  double size_of_place(double x, double y) const;
   void set_rounding(double h);
 
   const System& system_;

@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kFar = 1e9;
 
+/// Length that passes over what rings, and gains nothing.
+constexpr double kQuiet = 1e-3;
+
 /// A usual implicit step of one sliding contact, and its cost: 0.6 + 0.165 an evaluation.
 constexpr StepEffort kEffort{36, 0};
 constexpr double kUsual = 0.6 + 36 * 0.165;
@@ -36,12 +39,21 @@ ContactStates contacts_that(std::initializer_list<Slip> slips) {
 
 const ContactStates kSliding = contacts_that({Slip::plus});
 
+/// True when an implicit step is tried now, where one of this length passes over what rings.
+bool starts(MethodChoice& choice, double length_over_ring, double longest = kFar) {
+  return choice.may_start(longest) && choice.starts(length_over_ring, longest);
+}
+
+void go_by_series(MethodChoice& choice, double gone = 1.0) {
+  choice.earn();
+  choice.settle_series(gone, kFar);
+}
+
 /// A series step of such contacts that goes 1; true when an implicit one was tried instead.
 bool tries(MethodChoice& choice, const ContactStates& contacts = kSliding, double longest = kFar) {
   choice.look_at(contacts);
-  if (choice.starts_trial(longest)) return true;
-  choice.earn();
-  choice.settle_series(1.0, kFar);
+  if (starts(choice, kQuiet, longest)) return true;
+  go_by_series(choice);
   return false;
 }
 
@@ -73,20 +85,20 @@ int steps_until_dropped(MethodChoice& choice, double pace = 1.0) {
   return steps;
 }
 
-/// What an implicit step takes where the contacts are such: one that goes as far has not lost.
+/// What an implicit step takes where the contacts are such: one that goes farther has gained, and is taken again once a
+/// ring has decayed.
 double cost_of(const ContactStates& contacts, double series_cost, const StepEffort& effort) {
   MethodChoice choice;
   for (int i = 0; !tries(choice, contacts); ++i)
     if (i > 1000) return HUGE_VAL;
-  // a step that goes as far as `way` gains way x cost - what it takes: found by halving where it is not dropped
   double low = 0.0, high = 1e3;
   for (int i = 0; i < 60; ++i) {
     const double way = 0.5 * (low + high);
     MethodChoice copy = choice;
+    copy.settle_implicit(way, kFar, effort);
     copy.ring();
-    copy.settle_implicit(way, kFar, effort);
-    copy.settle_implicit(way, kFar, effort);
-    (copy.implicit() ? high : low) = way;
+    go_by_series(copy);
+    (starts(copy, kFar) ? high : low) = way;
   }
   return high * series_cost;
 }
@@ -217,37 +229,66 @@ TEST(MethodChoice, nothing_is_tried_where_the_series_have_gone_nowhere) {
   MethodChoice choice;
   for (int i = 0; i < 200; ++i) {
     choice.look_at(kSliding);
-    EXPECT_FALSE(choice.starts_trial(kFar));
-    choice.earn();
-    choice.settle_series(0.0, kFar);
+    EXPECT_FALSE(choice.may_start(kFar));
+    go_by_series(choice, 0.0);
   }
 }
 
-TEST(MethodChoice, a_ring_that_does_not_pay_is_left_to_the_series) {
-  MethodChoice choice = rich();
-  choice.ring();
-  EXPECT_EQ(steps_until_dropped(choice), 2);
-  EXPECT_EQ(steps_until_trial(choice), 6);
-  EXPECT_EQ(steps_until_dropped(choice), 2);
-  EXPECT_EQ(steps_until_trial(choice), 6);
+TEST(MethodChoice, nothing_is_tried_while_no_step_passes_over_what_rings) {
+  MethodChoice choice;
+  for (int i = 0; i < 200; ++i) {
+    choice.look_at(kSliding);
+    EXPECT_FALSE(starts(choice, 0.0));
+    go_by_series(choice);
+  }
+  EXPECT_TRUE(starts(choice, kQuiet));
 }
 
-TEST(MethodChoice, a_trial_in_a_ring_that_is_given_up_is_not_repeated_so_soon) {
+TEST(MethodChoice, a_ring_is_left_to_the_series_at_once) {
   MethodChoice choice = rich();
   choice.ring();
-  steps_until_dropped(choice);
-  ASSERT_EQ(steps_until_trial(choice), 6);
-  choice.give_up_implicit(kEffort);
   EXPECT_FALSE(choice.implicit());
   EXPECT_EQ(steps_until_trial(choice), 32);
 }
 
-TEST(MethodChoice, once_a_step_has_paid_the_ring_is_over) {
+// One that has paid goes on after a single series step, if it is to be 1.5 times as long as would pay; the series would
+// go 1.25 times as far as they did in the ring.
+TEST(MethodChoice, implicit_steps_that_have_paid_go_on_as_soon_as_the_ring_is_passed_over) {
+  constexpr double kPays = 1.5 * 1.25 * kUsual;
   MethodChoice choice = rich();
   choice.ring();
-  choice.settle_implicit(1.0, kFar, kEffort);
-  choice.settle_implicit(kUsual + 1.0, kFar, kEffort);
-  expect_first_from((kRich + 1.0) / kLoss - 1.0, steps_until_dropped(choice));
+  EXPECT_FALSE(choice.may_start(kFar));  // no step shows the ring
+  go_by_series(choice);
+  EXPECT_FALSE(starts(choice, 0.0));
+  EXPECT_FALSE(starts(choice, 0.99 * kPays));
+  EXPECT_FALSE(starts(choice, kFar, 0.99 * kPays));
+  EXPECT_TRUE(starts(choice, 1.01 * kPays));
+  EXPECT_TRUE(choice.implicit());
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 1.01 * kPays);
+  EXPECT_TRUE(choice.bounds(kFar).passes_over);
+}
+
+// Steps that grow from 1 to r go on to r^4 r, at most to 4 r.
+TEST(MethodChoice, steps_of_the_series_that_grow_while_a_ring_decays_are_expected_to_go_on) {
+  for (const auto& [growth, way] : {std::pair{1.0, 1.25}, {1.2, std::pow(1.2, 5)}, {2.0, 8.0}}) {
+    MethodChoice choice = rich();
+    choice.ring();
+    go_by_series(choice);
+    go_by_series(choice, growth);
+    const double pays = 1.5 * kUsual * way;
+    EXPECT_FALSE(starts(choice, 0.99 * pays)) << growth;
+    EXPECT_TRUE(starts(choice, 1.01 * pays)) << growth;
+  }
+}
+
+TEST(MethodChoice, implicit_steps_that_have_not_paid_have_to_wait) {
+  MethodChoice choice;
+  steps_until_trial(choice);
+  choice.settle_implicit(kUsual - 1.0, kFar, kEffort);
+  choice.ring();
+  int steps = 0;
+  for (; steps < 1000 && !starts(choice, kFar); ++steps) go_by_series(choice);
+  EXPECT_EQ(steps, 32);
 }
 
 TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
@@ -300,10 +341,9 @@ TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
   MethodChoice choice = rich();
   choice.leave_contact();
   choice.look_at(kSliding);
-  for (int i = 0; i < 6; ++i) {
-    choice.earn();
-    choice.settle_series(2.0, kFar);
-  }
+  int steps = 0;
+  for (; steps < 1000 && !starts(choice, kQuiet); ++steps) go_by_series(choice, 2.0);
+  EXPECT_EQ(steps, 32);
   EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 2.0 * kUsual);
 }
 
@@ -344,8 +384,7 @@ TEST(MethodChoice, a_ring_is_passed_over_at_the_start_alone) {
   EXPECT_FALSE(flown.may_pass_over());
   kinked.ring();
   EXPECT_FALSE(kinked.may_pass_over());
-  begun.earn();
-  begun.settle_series(0.0, kFar);  // what sticks has been found to slip
+  go_by_series(begun, 0.0);  // what sticks has been found to slip
   EXPECT_TRUE(begun.may_pass_over());
   begun.settle_series(1.0, kFar);
   EXPECT_FALSE(begun.may_pass_over());
