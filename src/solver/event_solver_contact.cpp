@@ -42,9 +42,9 @@ constexpr double kExcessFriction = 1e-8, kTooMuchFriction = 1e-3;
 /// Factor on rounding beyond which sticking contacts have to move apart, and on what friction has left of their V'.
 constexpr double kPartAllowance = 10.0, kLeftAgain = 2.0;
 
-/// Where powers of a normal force beyond the first change it by this share in a step of the series, more may ring than
-/// their last terms show.
-constexpr double kQuiet = 0.1;
+/// Where powers of a normal force beyond the first change it by this share within a radian of the fastest motion, more
+/// may ring than the last terms show.
+constexpr double kQuiet = 0.02;
 
 /// Length that is worth an implicit step, in steps of the series.
 constexpr double kWorthwhile = 4.0;
@@ -137,8 +137,10 @@ double EventSolver::implicit_or_ring_step(double longest, const DriveForms& driv
 /// Length of an implicit step that passes over what the last step, one of the series, shows to ring; 0 when there is
 /// none.
 double EventSolver::length_over_ring(double longest, const DriveForms& drives) {
-  if (normal_force_change(segment_, std::min(series_step_, longest), 2) >= kQuiet) return 0.0;
-  return implicit_.length_over(fast_motion(system_, segment_), kWorthwhile * series_step_, longest, drives, segment_);
+  const FastMotion motion = fast_motion(system_, segment_);
+  const double radian = motion.rate > 0.0 ? 1.0 / motion.rate : 0.0;
+  if (normal_force_change(segment_, radian, 2) >= kQuiet) return 0.0;
+  return implicit_.length_over(motion, kWorthwhile * series_step_, longest, drives, segment_);
 }
 
 /// The normal forces jump: the base rings.

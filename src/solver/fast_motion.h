@@ -14,7 +14,7 @@ struct FastMotion {
 };
 
 /// Of the velocities, as their last four terms tell: these are of the fastest motion alone. The segment's order is at
-/// least 3. The speed is that of the larger one of the last two terms: with lambda = -|lambda| exp(-+ i theta) it may be
+/// least 3. The speed is that of the larger one of the last two terms: with lambda = -|lambda| exp(i theta) it may be
 /// too small, by sin(theta/2). In an impact, where N is no single exponential, it is too small and the rate too large.
 [[gnu::noinline]] FastMotion fast_motion(const System& system, const Segment& segment);
 

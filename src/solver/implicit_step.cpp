@@ -142,30 +142,36 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   const double longest = std::min(bounds.longest, longest_drive_step(drives));
   const double shortest = std::max(bounds.shortest, kShortest * longest);
   const long evaluations_before = counts.rhs_evaluations;
-  const FastMotion over = std::exchange(over_, kAnything);
+  const FastMotion over = std::exchange(over_, {});
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
   double last_error = std::numeric_limits<double>::infinity();
-  bool tried = false;
+  bool tried = false, slower_ring = false;
+  // a step of this length was not good enough; for a ring it may be once that has decayed
+  const auto give_up = [&] {
+    if (known_step_ > 0.0 && !slower_ring) known_step_ = std::min(known_step_, h);
+    return 0.0;
+  };
   for (; h > shortest; tried = true, ++counts.rejected) {
-    if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return give_up(h);
+    if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return give_up();
     if (!equations_.solve(h, counts, bounds.easily)) {
-      if (bounds.easily) return give_up(h);
+      if (bounds.easily) return give_up();
       h *= kRetry;
       continue;
     }
     const double ratio = error(h) / equations_.allowed(h);
     const double factor = growth(h, ratio);
     if (ratio > 1.0) {
-      if (bounds.passes_over && ratio > last_error) return give_up(h);
+      if (bounds.passes_over && ratio > last_error) return give_up();
       last_error = ratio;
       h *= std::min(0.9, factor);
       continue;
     }
     if (at_start_ && h > base_time_ && passes_over_too_much(h)) return 0.0;
-    if (speed_missed_at_start() > std::max(over.speed, equations_.allowed(h))) {
-      // a slower ring: a shorter step may follow it that still passes over the fast one
+    if (over.rate > 0.0 && speed_missed_at_start() > std::max(over.speed, equations_.allowed(h))) {
+      // a shorter step may follow it that still passes over the fast one
+      slower_ring = true;
       h *= kShorter;
-      if (h * over.rate < kFarOver) return 0.0;
+      if (h * over.rate < kFarOver) return give_up();
       continue;
     }
     // a step that was cut short says nothing about longer ones; after a shorter one nothing speaks for a longer one
@@ -179,13 +185,7 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
     fill(h, segment);
     return h;
   }
-  return give_up(h);
-}
-
-/// A step of this length was not good enough.
-double ImplicitStep::give_up(double h) {
-  if (known_step_ > 0.0) known_step_ = std::min(known_step_, h);
-  return 0.0;
+  return give_up();
 }
 
 /// The error of a step that passes over a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|, of which rebounds
@@ -194,7 +194,7 @@ double ImplicitStep::length_over(const FastMotion& motion, double least, double 
                                  const Segment& segment) {
   double h = std::min(longest, longest_drive_step(drives));
   if (known_step_ > 0.0) h = std::min(h, std::max(known_step_, least));
-  over_ = kAnything;
+  over_ = {};
   if (h * motion.rate < kResolved) return h;
   const double eigenvalue = collocation().eigenvalue[0].real();
   const double z = std::min(kLongRing, h * eigenvalue * motion.rate), left = 1.0 + z * z;

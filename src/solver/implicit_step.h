@@ -67,9 +67,7 @@ class ImplicitStep {
 
  private:
   static constexpr int kStages = Collocation::kStages;
-  static constexpr FastMotion kAnything{0.0, std::numeric_limits<double>::infinity()};
 
-  double give_up(double h);
   StageAxes missed_at_start() const;
   double speed_missed_at_start() const;
   double error(double h) const;
@@ -80,7 +78,7 @@ class ImplicitStep {
   StageEquations equations_;
   double base_time_, slow_base_time_, most_passed_over_;
   double known_step_ = 0.0;                      ///< of steps that are good enough, as far as the last ones tell
-  FastMotion over_ = kAnything;                  ///< what the next step passes over, with the most speed that it may
+  FastMotion over_;                              ///< what the next step passes over, with its most speed; rate 0: all
   double next_step_ = 0.0;                       ///< length that the last step suggests
   double restart_step_ = 0.0;                    ///< length of the first step after the last jump
   double last_length_ = 0.0, last_ratio_ = 1.0;  ///< of the last step, and its error over the one allowed

@@ -150,7 +150,8 @@ bool MethodChoice::starts(double length_over_ring, double longest) {
   const double grown = way_before_ > 0.0 ? std::pow(last_way_ / way_before_, kGrowingSteps) : kUndisturbed;
   const double way = std::max(pace(), std::clamp(grown, kUndisturbed, kMostGrown) * last_way_);
   const double usual = kKind[kind_].usual_implicit();
-  const bool resumes = paid_ && series_steps_ >= wait_ && std::min(length_over_ring, longest) > kResumeGain * usual * way;
+  const double length = std::min(length_over_ring, longest);
+  const bool resumes = paid_ && series_steps_ >= wait_ && length > kResumeGain * usual * way;
   if (!resumes && series_steps_ < patience_) return false;
   attempt_ = tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
