@@ -547,6 +547,38 @@ TEST(Implicit, passes_over_a_ring_once_it_has_decayed_below_its_tolerance) {
   }
 }
 
+// On an overdamped base the part creeps to its new place with k/c when the press is let go, after a ring of c/m that is
+// over at once: steps that pass over that one still follow the creep, delta'' + c delta' + k delta = 0.
+TEST(Implicit, follows_a_slow_ring_under_a_fast_one) {
+  constexpr double kBefore = 2.0, kAfter = 1.5, kJump = 1.0, kStiffness = 1e6, kRatio = 10.0;
+  const double omega = std::sqrt(kStiffness), root = std::sqrt(kRatio * kRatio - 1.0);
+  const double fast = omega * (kRatio + root), slow = omega * (kRatio - root);
+  const double jump = (kBefore - kAfter) / kStiffness;
+  Scene scene = test::scene_of(test::ball, {"gripper={pressing_force: 2.0}", "trial.time_limit=8"});
+  scene.excitations.clear();
+  scene.initial.y.reset();
+  test::set_base(scene, kStiffness, kRatio);
+  scene.solver.name = "implicit";
+  scene.solver.tolerance = 1e-6;
+  Simulation simulation(scene, {});
+  while (simulation.advance() && simulation.segment().end_time() < kJump) {
+  }
+  simulation.cut(kJump);
+  simulation.set_pressing_force(kAfter);
+  int coarse = 0;
+  while (simulation.advance()) {
+    const Segment& g = simulation.segment();
+    coarse += g.coarse;
+    for (double share = 0.0; share < 1.0; share += 0.125) {
+      const double t = g.start.value() + share * g.duration - kJump;
+      const double left = (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow);
+      const double y = scene.part.base_distance - kAfter / kStiffness - jump * left;
+      EXPECT_NEAR(state_at(g, share * g.duration).y, y, 1e-2 * jump) << t * slow;
+    }
+  }
+  EXPECT_GT(coarse, 1);
+}
+
 // In the tanh layer a series step on a stiff base goes a small part of the way to the next kink.
 TEST(Implicit, automatic_choice_tries_soon_in_the_tanh_layer_where_the_way_to_a_kink_is_long) {
   Scene scene = pressed(3e6, 1.0);

@@ -281,6 +281,24 @@ TEST(MethodChoice, steps_of_the_series_that_grow_while_a_ring_decays_are_expecte
   }
 }
 
+TEST(MethodChoice, what_is_given_up_after_a_ring_is_tried_again_less_and_less_often) {
+  MethodChoice choice = rich();
+  const auto steps_until_resumed = [&] {
+    int steps = 0;
+    for (; steps < 1000 && !starts(choice, kFar); ++steps) go_by_series(choice);
+    return steps;
+  };
+  choice.ring();
+  EXPECT_EQ(steps_until_resumed(), 1);
+  for (const int steps : {4, 8, 16}) {
+    choice.give_up_implicit(kEffort);
+    EXPECT_EQ(steps_until_resumed(), steps);
+  }
+  choice.settle_implicit(kUsual, kFar, kEffort);
+  choice.ring();
+  EXPECT_EQ(steps_until_resumed(), 1);
+}
+
 TEST(MethodChoice, implicit_steps_that_have_not_paid_have_to_wait) {
   MethodChoice choice;
   steps_until_trial(choice);
