@@ -89,7 +89,7 @@ class EventSolver final : public Solver {
   ImplicitStep implicit_;
   bool implicit_now_ = false;     ///< the current segment is an implicit step
   double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
-  double series_step_ = 0.0;      ///< last step of the series in contact, whose series the segment still has; or 0
+  double series_step_ = 0.0;      ///< last step of the series in contact
   RingWatch ring_watch_;          ///< implicit
   MethodChoice choice_;           ///< automatic
   StepEffort effort_before_;      ///< automatic: until the present step
