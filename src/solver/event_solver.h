@@ -41,6 +41,7 @@ class EventSolver final : public Solver {
   double series_contact_step(double longest, const DriveForms& drives);
   double direction_step(double step, double point_tolerance);
   double contact_step(double longest, const DriveForms& drives);
+  double lone_implicit_step(double longest, const DriveForms& drives);
   double implicit_or_ring_step(double longest, const DriveForms& drives);
   double chosen_contact_step(double longest, const DriveForms& drives);
   double length_over_ring(double longest, const DriveForms& drives);

@@ -111,7 +111,18 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
     return series_contact_step(longest, drives);
   }
   if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
+  if (method_ == ContactMethod::implicit_alone) return lone_implicit_step(longest, drives);
   return implicit_or_ring_step(longest, drives);
+}
+
+/// Implicit alone: an implicit step, if need be one that follows the base; by the series where no length does.
+double EventSolver::lone_implicit_step(double longest, const DriveForms& drives) {
+  double step = implicit_contact_step({longest}, drives);
+  if (step == 0.0) {
+    implicit_.follow_base();
+    step = implicit_contact_step({longest}, drives);
+  }
+  return step > 0.0 ? step : series_contact_step(longest, drives);
 }
 
 /// Implicit: one by the series while the base rings, else an implicit one.
@@ -145,6 +156,7 @@ double EventSolver::length_over_ring(double longest, const DriveForms& drives) {
 
 /// The normal forces jump: the base rings.
 void EventSolver::ring() {
+  implicit_.follow_base();
   ring_watch_.ring();
   choice_.ring();
 }

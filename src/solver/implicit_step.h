@@ -52,6 +52,9 @@ class ImplicitStep {
   /// Length that the next step is tried with first.
   void suggest(double step) { next_step_ = step; }
 
+  /// The next step is so short that it follows the base.
+  void follow_base() { next_step_ = base_time_; }
+
   /// The forces have just jumped: the next step is as short as the one after the last jump could be. `base_rings`: the
   /// normal forces are among them, and the next step has a length of its own (`suggest`).
   void restart(bool base_rings);

@@ -10,8 +10,9 @@
 
 namespace vibratory_alignment {
 
-/// How contact is stepped: power series, implicit steps, or whichever goes further for its cost.
-enum class ContactMethod { series, implicit, automatic };
+/// How contact is stepped: power series; implicit steps, but for rings of the base, which the series follow; implicit
+/// steps alone; or whichever goes further for its cost.
+enum class ContactMethod { series, implicit, implicit_alone, automatic };
 
 /// What an implicit step has taken, also in attempts that were given up.
 struct StepEffort {

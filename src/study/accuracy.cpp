@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "model/solver_names.h"
+#include "trial/make_solver.h"
 #include "trial/simulation.h"
 
 namespace vibratory_alignment {
@@ -96,7 +97,7 @@ AccuracyRun measure(const Scene& scene, const AccuracyReference& reference, doub
 AccuracyReference accuracy_reference(const Scene& scene) {
   AccuracyReference reference;
   reference.method = "event";
-  reference.second_method = "implicit";
+  reference.second_method = kImplicitAlone;
   const TrialResult first = run(with_solver(scene, reference.method, kReferenceTolerance, false), {});
   if (first.outcome == Outcome::failed) throw std::runtime_error("the reference run failed: " + first.failure);
   reference.end_time = first.final_time;

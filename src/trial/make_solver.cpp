@@ -40,6 +40,7 @@ std::unique_ptr<Solver> make_solver(const System& system, const std::vector<Exci
   };
   if (settings.name == "event") return hybrid(ContactMethod::series);
   if (settings.name == "implicit") return hybrid(ContactMethod::implicit);
+  if (settings.name == kImplicitAlone) return hybrid(ContactMethod::implicit_alone);
   if (settings.name == "auto") return hybrid(ContactMethod::automatic);
   const double step = settings.step.value_or(0.0);
   if (std::unique_ptr<StepMethod> method = make_step_method(settings.name, step, system)) {

@@ -15,6 +15,7 @@
 #include "solver/event_solver.h"
 #include "solver/implicit_step.h"
 #include "solver/stage_equations.h"
+#include "trial/make_solver.h"
 #include "trial/simulation.h"
 
 namespace vibratory_alignment {
@@ -110,6 +111,27 @@ TEST(Implicit, follows_every_rebound) {
       }
     });
     EXPECT_NEAR(restitution, test::linear_restitution(0.3), 10.0 / std::sqrt(k)) << k;
+  }
+}
+
+// The series take no part in implicit steps alone: in a bounce they follow the base themselves, to the same restitution.
+TEST(Implicit, steps_alone_follow_every_rebound) {
+  for (const double k : {1e6, 1e9}) {
+    Scene scene = test::hard_scene("stiff_bounce", {"trial.time_limit=50"});
+    test::set_base(scene, k, 0.3);
+    scene.solver.name = kImplicitAlone;
+    double speed = 0.0, restitution = 0.0;
+    int by_series = 0;
+    test::run(scene, [&](const Segment& g) {
+      by_series += g.loaded_count > 0 && !g.coarse;
+      for (int i = 0; i < g.event_count; ++i) {
+        if (g.events[static_cast<std::size_t>(i)].kind == EventKind::touch) speed = -g.end.vy;
+        if (g.events[static_cast<std::size_t>(i)].kind == EventKind::release && restitution == 0.0)
+          restitution = g.end.vy / speed;
+      }
+    });
+    EXPECT_NEAR(restitution, test::linear_restitution(0.3), 10.0 / std::sqrt(k)) << k;
+    EXPECT_EQ(by_series, 0) << k;
   }
 }
 
