@@ -34,7 +34,7 @@ Segment slow_segment(int order) {
 
 System plain_system() { return make_system(test::scene_of(test::plain)); }
 
-// The larger one of two terms with the angle arg(lambda) between them, more than a right one, is at least |c| cos of half
+// The larger one of two terms with the angle arg(lambda) between them, a right one or more, is at least |c| cos of half
 // of it.
 TEST(FastMotion, shows_in_the_last_terms_alone) {
   const System system = plain_system();
@@ -80,7 +80,7 @@ TEST(FastMotion, is_none_where_nothing_moves) {
   EXPECT_EQ(motion.speed, 0.0);
 }
 
-// N = 2 - 3 t + t^2 of one contact, 4 + t^2 of the other: over t = 0.5 by (1.5 + 0.25)/2, without what is linear 0.25/2.
+// N = 2 - 3 t + t^2 of one contact, 4 + t^2 of the other: over t = 0.5 by (1.5 + 0.25)/2, without the linear part 0.25/2.
 TEST(FastMotion, normal_forces_change_by_the_sum_of_their_terms) {
   Segment segment;
   segment.order = 12;

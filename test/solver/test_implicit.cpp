@@ -558,8 +558,8 @@ TEST(Implicit, rings_after_kinks_are_left_to_the_series) {
 }
 
 // When the press is let go from F to F' a part of mass 1 rings with the speed (F - F')/omega exp(-zeta omega t). A step
-// passes over it once it is so slow that, filtered twice at z = 3, it is below the tolerance of a step (beside itself and
-// what the press makes of the part in such a step); and the series do not go on for long after that.
+// passes over it once it is so slow that, filtered twice at z = 3, it is below the tolerance of a step (beside itself
+// and what the press makes of the part in such a step); and the series do not go on for long after that.
 TEST(Implicit, passes_over_a_ring_once_it_has_decayed_below_its_tolerance) {
   constexpr double kBefore = 2.0, kAfter = 1.5, kJump = 1.0, kStiffness = 1e6, kOmega = 1e3, kRatio = 0.05, kZ = 3.0;
   constexpr double kStepShare = 1e-2;  // of the tolerance
