@@ -80,7 +80,7 @@ TEST(FastMotion, is_none_where_nothing_moves) {
   EXPECT_EQ(motion.speed, 0.0);
 }
 
-// N = 2 - 3 t + t^2 of one contact, 4 + t^2 of the other: over t = 0.5 by (1.5 + 0.25)/2, without the linear part 0.25/2.
+// N = 2 - 3 t + t^2 of one contact, 4 + t^2 of the other: after 0.5 by (1.5 + 0.25)/2, beyond what is linear 0.25/2.
 TEST(FastMotion, normal_forces_change_by_the_sum_of_their_terms) {
   Segment segment;
   segment.order = 12;

@@ -116,10 +116,11 @@ TEST(Implicit, follows_every_rebound) {
 
 // The series take no part in implicit steps alone: in a bounce they follow the base themselves, to the same restitution.
 TEST(Implicit, steps_alone_follow_every_rebound) {
-  for (const double k : {1e6, 1e9}) {
+  for (const double k : {1e6, 1e9, 1e12}) {
     Scene scene = test::hard_scene("stiff_bounce", {"trial.time_limit=50"});
     test::set_base(scene, k, 0.3);
     scene.solver.name = kImplicitAlone;
+    scene.solver.tolerance = 1e-4;
     double speed = 0.0, restitution = 0.0;
     int by_series = 0;
     test::run(scene, [&](const Segment& g) {
@@ -130,7 +131,7 @@ TEST(Implicit, steps_alone_follow_every_rebound) {
           restitution = g.end.vy / speed;
       }
     });
-    EXPECT_NEAR(restitution, test::linear_restitution(0.3), 10.0 / std::sqrt(k)) << k;
+    EXPECT_NEAR(restitution, test::linear_restitution(0.3), 10.0 / std::sqrt(k) + 1e-3) << k;
     EXPECT_EQ(by_series, 0) << k;
   }
 }
@@ -174,7 +175,7 @@ TEST(Implicit, passes_over_a_ring_at_the_start_below_its_tolerance) {
 TEST(Implicit, follows_the_ring_after_a_jump_of_the_press) {
   constexpr double kBefore = 2.0, kAfter = 0.2, kJump = 1.0;
   for (const double stiffness : {1e4, 1e6, 1e8})
-    for (const char* solver : {"implicit", "auto"})
+    for (const char* solver : {"implicit", kImplicitAlone, "auto"})
       for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
         Scene scene = test::scene_of(test::ball, {"gripper={pressing_force: 2.0}", "trial.time_limit=8"});
         scene.initial.y.reset();
