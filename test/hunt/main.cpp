@@ -18,6 +18,7 @@
 #include "progress_line.h"
 #include "scene_text.h"
 #include "shrink.h"
+#include "trial/make_solver.h"
 
 namespace vibratory_alignment::hunt {
 namespace {
@@ -134,8 +135,8 @@ int main(int argc, char** argv) {
       ->transform(
           CLI::CheckedTransformer(std::map<std::string, Range>{{"ordinary", Range::ordinary}, {"wild", Range::wild}}))
       ->type_name("ordinary|wild");
-  app.add_option("--solver", options.hunt.solver, "Solver; implicit and auto are compared with event")
-      ->check(CLI::IsMember({"event", "implicit", "auto"}))
+  app.add_option("--solver", options.hunt.solver, "Solver; all others are compared with event")
+      ->check(CLI::IsMember({"event", "implicit", kImplicitAlone, "auto"}))
       ->capture_default_str();
   app.add_option("--threads", options.hunt.threads, "Threads")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--keep", options.keep, "Write every shrunk scene that fails to this directory")->type_name("DIR");

@@ -6,6 +6,7 @@
 
 #include "mechanics/system.h"
 #include "segment_checks.h"
+#include "trial/make_solver.h"
 #include "trial/sampler.h"
 #include "trial/simulation.h"
 
@@ -39,7 +40,10 @@ class Digest {
 
 }  // namespace
 
-bool takes_implicit_steps(const Scene& scene) { return scene.solver.name == "implicit" || scene.solver.name == "auto"; }
+bool takes_implicit_steps(const Scene& scene) {
+  const std::string& name = scene.solver.name;
+  return name == "implicit" || name == kImplicitAlone || name == "auto";
+}
 
 Trace run_trial(const Scene& scene, bool checked, bool merges) {
   Trace trace;
