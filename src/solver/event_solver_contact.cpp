@@ -156,7 +156,6 @@ double EventSolver::length_over_ring(double longest, const DriveForms& drives) {
 
 /// The normal forces jump: the base rings.
 void EventSolver::ring() {
-  implicit_.follow_base();
   ring_watch_.ring();
   choice_.ring();
 }

@@ -82,7 +82,10 @@ ImplicitStep::ImplicitStep(const System& system, double tolerance)
 void ImplicitStep::restart(bool base_rings) {
   restarts_ = !base_rings;
   taken_ = false;
-  if (!base_rings && restart_step_ > 0.0) next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
+  if (base_rings)
+    follow_base();
+  else if (restart_step_ > 0.0)
+    next_step_ = std::min(next_step_, kRestartGrowth * restart_step_);
 }
 
 /// What the polynomial of the accelerations misses at the start.

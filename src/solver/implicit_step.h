@@ -56,7 +56,7 @@ class ImplicitStep {
   void follow_base() { next_step_ = base_time_; }
 
   /// The forces have just jumped: the next step is as short as the one after the last jump could be. `base_rings`: the
-  /// normal forces are among them, and the next step has a length of its own (`suggest`).
+  /// normal forces are among them, and the next step follows the base.
   void restart(bool base_rings);
 
   /// The motion does not go on from the end of the last step.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/scene.h"
+#include "trial/make_solver.h"
 
 namespace vibratory_alignment::test {
 
@@ -27,7 +28,8 @@ inline std::ostream& operator<<(std::ostream& out, const StatedSolver& solver) {
 
 /// All of this build.
 inline std::vector<StatedSolver> stated_solvers() {
-  return {{"event", false, 0.0, true, 0.0}, {"implicit", false, 0.0, true, 0.0},     {"auto", false, 0.0, true, 0.0},
+  return {{"event", false, 0.0, true, 0.0}, {"implicit", false, 0.0, true, 0.0},
+          {"auto", false, 0.0, true, 0.0},  {kImplicitAlone, false, 0.0, true, 0.0},
           {"rk4", true, 4.0, false, 0.0},   {"semi_implicit", true, 1.0, true, 0.0},
 #ifdef VIBRATORY_ALIGNMENT_ODE
           {"ode", true, 1.0, true, 0.5}
