@@ -27,12 +27,6 @@ Load3 drive_at(const Segment& segment, double t) {
           value_at(segment.drive_phi, order, t)};
 }
 
-double slope_at(const Series& series, int order, double t) {
-  double slope = order * series[order];
-  for (int k = order - 1; k >= 1; --k) slope = slope * t + k * series[k];
-  return slope;
-}
-
 }  // namespace
 
 double EnergyAccount::mechanical(const State& s) const {
@@ -132,8 +126,13 @@ void EnergyAccount::book_powers(const Segment& segment, const Relaxations& relax
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& contact = segment.loaded[i];
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
-    const double rate = slope_at(contact.depth, order, t);
-    ledger_.base_loss += weight * damping_of(system_, face, tilt.cos, tilt.sin) * rate * rate;
+    const double damping = damping_of(system_, face, tilt.cos, tilt.sin);
+    if (damping > 0.0) {
+      // of the velocities: the slope of a depth is its last digit over the length of the segment
+      const Vec2 point = site_point(system_, s, contact.site, tilt.cos, tilt.sin);
+      const double rate = contact_kinematics(system_, s, contact.site, face, point, tilt.cos, tilt.sin).depth_rate;
+      ledger_.base_loss += weight * damping * rate * rate;
+    }
     ledger_.friction_loss -=
         weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
     if (!system_.isotropic) ledger_.turning += turning(face, value_at(contact.depth, order, t));

@@ -8,6 +8,7 @@
 
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "trial/energy.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -104,6 +105,28 @@ TEST(EnergyLedger, of_one_impact) {
   EXPECT_NEAR(r.energy->release_loss, dropped, 1e-13);
   const double spring = 0.5 * 2.0 * dropped / 1e6;  // of the gripper at the release, k_y = 1
   EXPECT_NEAR(r.energy->base_loss + dropped, 0.5 * (before * before - after * after) - spring, 1e-12);
+}
+
+// In a segment so short that the part goes less than the last digit of its depth the damper takes what the velocities
+// say, h d'^2: the slope between two rounded depths is none.
+TEST(EnergyLedger, of_a_segment_that_only_rounding_sees) {
+  constexpr double kTime = 1e-17, kSpeed = 2.0, kDepth = 1e-3, kDamping = 600.0, kLastDigit = 1e-16;
+  const System system = make_system(scene_of(test::ball, {"base={stiffness: {y: 1.0e6}, damping: {y: 600}}"}));
+  Segment g;
+  g.duration = kTime;
+  g.order = 1;
+  g.begin.y = g.end.y = system.base_distance - kDepth;
+  g.begin.vy = g.end.vy = -kSpeed;
+  g.y[0] = g.begin.y;
+  g.y[1] = g.vy[0] = -kSpeed;
+  g.contacts[0] = {Phase::loaded, Face::bottom};
+  g.loaded_count = 1;
+  g.loaded[0].site = Site::a1;
+  g.loaded[0].depth[0] = kDepth;
+  g.loaded[0].depth[1] = kSpeed + kLastDigit / kTime;
+  EnergyAccount account(system);
+  account.book(g);
+  EXPECT_NEAR(account.ledger().base_loss / (kDamping * kSpeed * kSpeed * kTime), 1.0, 1e-6);
 }
 
 // C1 != C2: the normal turns under load and the spring's stiffness with it, which is a term of its own.
