@@ -269,7 +269,7 @@ void EventSolver::begin_segment(bool contact) {
 /// Takes one step, by power series or an implicit one, to the first of: its end, `longest`, an event.
 void EventSolver::take_step(double longest, bool contact) {
   // in flight events are only sought in the series, and their times corrected in the closed form
-  const bool corrects = !contact && flight_.exact() && !system_.recovery;
+  const bool corrects = !contact && corrects_crossings();
   const double point_tolerance = contact ? tolerance_ : corrects ? search_tolerance_ : kFlightTolerance;
   double step = 0.0;
   if (contact) {
@@ -278,6 +278,14 @@ void EventSolver::take_step(double longest, bool contact) {
     series_.expand_free(state_, forms_, corrects ? search_order_ : kFlightOrder, segment_);
     step = series_step(system_, segment_, point_tolerance);
   }
+  go_along(step, longest, point_tolerance, contact);
+  if (!implicit_now_ || implicit_.keeps_normal_forces(segment_, mode_.pins)) return;
+  leave_implicit_step();
+  go_along(series_contact_step(longest, forms_), longest, point_tolerance, contact);
+}
+
+/// Goes along the segment's series, which hold for `step`, to the first of: its end, `longest`, an event.
+void EventSolver::go_along(double step, double longest, double point_tolerance, bool contact) {
   if (!std::isfinite(last_terms(segment_))) throw SolverFailure("the motion is no longer finite");
   segment_.coarse = implicit_now_;
   segment_.duration = bounded_step(step, longest, point_tolerance, contact);
@@ -299,7 +307,7 @@ void EventSolver::take_step(double longest, bool contact) {
     find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, forms_, found_);
   }
   if (found_.count == 0) return;
-  if (corrects && found_.time > 0.0) found_.time = first_crossing(found_);
+  if (!contact && corrects_crossings() && found_.time > 0.0) found_.time = first_crossing(found_);
   if (implicit_now_) retake_to_events(forms_, found_);
   segment_.duration = found_.count > 0 ? found_.time : implicit_length_;
 }

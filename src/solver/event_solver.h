@@ -32,8 +32,10 @@ class EventSolver final : public Solver {
   void begin_segment(bool contact);
   bool leap(double longest, FoundEvents& found);
   void take_step(double longest, bool contact);
+  void go_along(double step, double longest, double point_tolerance, bool contact);
   double bounded_step(double step, double longest, double point_tolerance, bool contact);
   State flight_state(double duration) const;
+  bool corrects_crossings() const { return flight_.exact() && !system_.recovery; }
   double crossing_time(double found, const Event& event) const;
   double first_crossing(const FoundEvents& found) const;
   bool must_part() const;
@@ -48,6 +50,7 @@ class EventSolver final : public Solver {
   void ring();
   bool has_event(double step, const DriveForms& drives);
   double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
+  void leave_implicit_step();
   double shorten_implicit_step(double step);
   void retake_to_events(const DriveForms& drives, FoundEvents& found);
   bool contradicted() const;

@@ -205,6 +205,21 @@ double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveF
   return step;
 }
 
+/// The series go instead of the implicit step that was taken.
+void EventSolver::leave_implicit_step() {
+  implicit_.forget();
+  implicit_now_ = false;
+  found_.clear();
+  if (method_ == ContactMethod::automatic) {
+    choice_.give_up_implicit(spent());
+    choice_.earn();
+  } else if (method_ == ContactMethod::implicit) {
+    ring_watch_.give_up_implicit();
+  } else {
+    implicit_.follow_base();
+  }
+}
+
 /// Takes the implicit step again with the length `step`, or where that does not converge with half of it, and so on.
 /// Returns its length; 0 when none converges: the polynomials of the longer one stay, whose state there only they know.
 double EventSolver::shorten_implicit_step(double step) {

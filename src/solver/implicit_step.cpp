@@ -26,6 +26,9 @@ constexpr double kResolved = 5.0, kShortForDrive = 0.3;
 /// what rounding of the coordinates leaves, times the second.
 constexpr double kLongRing = 3.0, kRingOfRounding = 10.0;
 
+/// Most change of a normal force by what is passed over, as a share of the smaller one of before and after.
+constexpr double kMostOverForce = 1.0;
+
 /// Where a step would pass over more than it may, a shorter one is tried with this share of its length, which still
 /// passes over the fast motion: it is so many times as long as that motion's rate asks for.
 constexpr double kShorter = 0.2, kFarOver = 25.0;
@@ -58,11 +61,21 @@ double most_mobility_of_mass(const System& system) {
   return std::max(system.x.inverse_inertia, system.y.inverse_inertia);
 }
 
+/// Of the part's farthest point.
+double most_mobility(const System& system) {
+  const double reach = system.half_width * system.half_width + system.base_distance * system.base_distance;
+  return most_mobility_of_mass(system) + reach * system.phi.inverse_inertia;
+}
+
 /// At least: in the stiffer direction, at the part's farthest point.
 double base_time(const System& system) {
-  const double reach = system.half_width * system.half_width + system.base_distance * system.base_distance;
   return answer_time(std::max(system.stiffness_x, system.stiffness_y), std::max(system.damping_x, system.damping_y),
-                     most_mobility_of_mass(system) + reach * system.phi.inverse_inertia);
+                     most_mobility(system));
+}
+
+/// Of the undamped base, at most.
+double natural_rate(const System& system) {
+  return std::sqrt(std::max(system.stiffness_x, system.stiffness_y) * most_mobility(system));
 }
 
 /// At most: in the softer direction, where the part does not turn.
@@ -77,6 +90,7 @@ ImplicitStep::ImplicitStep(const System& system, double tolerance)
     : equations_(system, tolerance),
       base_time_(base_time(system)),
       slow_base_time_(slow_base_time(system)),
+      natural_rate_(natural_rate(system)),
       most_passed_over_(kPassedOver * tolerance * (system.half_width + system.base_distance)) {}
 
 void ImplicitStep::restart(bool base_rings) {
@@ -201,10 +215,24 @@ double ImplicitStep::length_over(const FastMotion& motion, double least, double 
   if (h * motion.rate < kResolved) return h;
   const double eigenvalue = collocation().eigenvalue[0].real();
   const double z = std::min(kLongRing, h * eigenvalue * motion.rate), left = 1.0 + z * z;
+  // a rounded place is pushed back by the springs: to the speed of their ring, or of a creep, which is slower
+  const double rounding = equations_.place_rounding(segment) * std::min(motion.rate, natural_rate_);
   const double most_speed = std::max(equations_.allowed_from(segment, z / (eigenvalue * motion.rate)) * left * left / z,
-                                     kRingOfRounding * equations_.place_rounding(segment) * motion.rate);
+                                     kRingOfRounding * rounding);
   over_ = {motion.rate, most_speed};
   return motion.speed <= most_speed ? h : 0.0;
+}
+
+bool ImplicitStep::keeps_normal_forces(const Segment& segment, const Pins& pins) const {
+  if (follows_) return true;
+  const Forces& state = equations_.start_forces();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(segment.loaded_count); ++i) {
+    const ContactSeries& contact = segment.loaded[i];
+    if (pins[static_cast<std::size_t>(contact.site)].normal > 0) continue;  // N starts from zero
+    const double of_state = state.contact[i].normal_force, of_step = contact.normal_force[0];
+    if (!(std::abs(of_state - of_step) <= kMostOverForce * std::min(of_state, of_step))) return false;
+  }
+  return true;
 }
 
 bool ImplicitStep::follows_base(double step, const DriveForms& drives) const {

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "solver/contact_mode.h"
 #include "solver/fast_motion.h"
 #include "solver/motion_series.h"
 #include "solver/stage_equations.h"
@@ -59,6 +60,10 @@ class ImplicitStep {
   /// normal forces are among them, and the next step follows the base.
   void restart(bool base_rings);
 
+  /// True unless the last step, which filled `segment`, is the first one and begins with a normal force that is not
+  /// within a factor of two of the state's: what it passes over may lift that contact, or make it slide another way.
+  bool keeps_normal_forces(const Segment& segment, const Pins& pins) const;
+
   /// The motion does not go on from the end of the last step.
   void forget() { taken_ = false; }
 
@@ -79,7 +84,7 @@ class ImplicitStep {
   void fill(double h, Segment& segment) const;
 
   StageEquations equations_;
-  double base_time_, slow_base_time_, most_passed_over_;
+  double base_time_, slow_base_time_, natural_rate_, most_passed_over_;
   double known_step_ = 0.0;                      ///< of steps that are good enough, as far as the last ones tell
   FastMotion over_;                              ///< what the next step passes over, with its most speed; rate 0: all
   double next_step_ = 0.0;                       ///< length that the last step suggests
