@@ -171,8 +171,8 @@ TEST(Implicit, passes_over_a_ring_at_the_start_below_its_tolerance) {
   EXPECT_GT(run_with(scene, "implicit", 1e-9).counts.steps, kPeriods);
 }
 
-// N swings between 1 - s and 1 + s times the press. Friction that holds at the one may not at the other: a ring is passed
-// over at the start where N begins within a factor of two of what the step goes on with.
+// N swings between 1 - s and 1 + s times the press. Friction that holds at the one may not at the other: a ring is
+// passed over at the start where N begins within a factor of two of what the step goes on with.
 TEST(Implicit, follows_a_ring_at_the_start_that_more_than_halves_or_doubles_a_force) {
   constexpr double kPress = 2.0, kStiffness = 1e8, kTime = 0.1;
   constexpr double kPeriods = kTime * 1e4 / 6.283;
@@ -631,8 +631,8 @@ TEST(Implicit, passes_over_a_ring_once_it_has_decayed_below_its_tolerance) {
   }
 }
 
-// What rounds a place by delta makes the springs of the base ring with delta omega at most, however fast a damper or the
-// tanh layer answers: faster motion is none of rounding, and is not passed over as if it were.
+// What rounds a place by delta makes the springs of the base ring with delta omega at most, however fast a damper or
+// the tanh layer answers: faster motion is none of rounding, and is not passed over as if it were.
 TEST(Implicit, takes_for_rounding_what_springs_make_of_it) {
   constexpr double kStiffness = 1e6, kOmega = 1e3, kFast = 1e12, kDigits = 1e-15;
   Scene scene = test::scene_of(test::ball, {});
