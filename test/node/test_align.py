@@ -122,6 +122,7 @@ class Align(AlignerTestCase):
         feedback, arrivals = self.client.feedback, self.client.arrivals
         self.assertAlmostEqual(len(feedback), 16, delta=4)
         self.assertAlmostEqual((arrivals[-2] - arrivals[1]) / (len(arrivals) - 3), 0.1, delta=0.02)
+        self.assertTrue(self.states.wait(lambda states: states[-1].tau >= feedback[-1].tau))
         instants = [message.tau for message in feedback]
         self.assertEqual(instants, sorted(instants))
         before = -1.0
@@ -280,10 +281,13 @@ class Align(AlignerTestCase):
         self.time_scale(0.05)
         self.client.send(scene='gripper_si', time_limit=0.005)
         self.assertEqual(self.client.done()[1].time, 0.005)
+        # result and states come on connections of their own
+        self.assertTrue(self.states.wait(lambda states: states[-1].time > 0.005 - 1e-12))
         times = [state.time for state in self.states.messages if state.scene == 'gripper_si']
         self.assertAlmostEqual(times[-1] - times[-2], 0.01 * TIME_UNIT, places=12)
         self.client.send(scene=scene_path('small'), time_limit=0.1)
         self.client.done()
+        self.assertTrue(self.states.wait(lambda states: (states[-1].scene, states[-1].tau) == ('small', 0.1)))
         self.assertEqual([state.tau for state in self.states.messages[-3:-1]], [8 * 0.01, 9 * 0.01])
 
 
