@@ -18,6 +18,7 @@
 #include "cli/reproduce_command.h"
 #include "cli/sweep_command.h"
 #include "cli/trial_command.h"
+#include "model/nearest_word.h"
 #include "model/scene_loader.h"
 
 namespace vibratory_alignment {
@@ -58,12 +59,26 @@ int told(int status) {
 
 /// Throws UsageError for a first word that should be a command and is none.
 void check_command(const char* word) {
-  std::string names;
+  std::string list;
+  std::vector<std::string> names;
   for (const Command& command : kCommands) {
     if (command.name == std::string(word)) return;
-    names += (names.empty() ? "" : ", ") + std::string(command.name);
+    names.emplace_back(command.name);
+    list += (list.empty() ? "" : ", ") + names.back();
   }
-  throw UsageError(std::string(word) + ": there is no such command; there are " + names);
+  throw UsageError(std::string(word) + ": there is no such command" + did_you_mean(word, names) + "; there are " + list);
+}
+
+/// The first option given to a command that it does not have, as a message; empty when there is none.
+std::string unknown_option(const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (std::string word : command.remaining_for_passthrough()) {
+    word = word.substr(0, word.find('='));
+    if (word.size() > 1 && word.front() == '-') return word + ": there is no such option" + did_you_mean(word, known);
+  }
+  return "";
 }
 
 int run(int argc, char** argv) {
@@ -84,9 +99,13 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return told(app.exit(error));
-    std::string command = "align";
-    for (const CLI::App* subcommand : app.get_subcommands()) command += " " + subcommand->get_name();
-    std::fprintf(stderr, "align: %s\nTry `%s --help`.\n", error.what(), command.c_str());
+    std::string command = "align", unknown;
+    for (const CLI::App* subcommand : app.get_subcommands()) {
+      command += " " + subcommand->get_name();
+      unknown = unknown_option(*subcommand);
+    }
+    std::fprintf(stderr, "align: %s\nTry `%s --help`.\n", unknown.empty() ? error.what() : unknown.c_str(),
+                 command.c_str());
     return kExitUsage;
   }
   for (const auto& [subcommand, runner] : runners) {

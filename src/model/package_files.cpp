@@ -5,9 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
+
+#include "model/nearest_word.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -121,6 +124,18 @@ std::vector<std::string> shipped(const PackageFileKind& kind, const fs::path& di
   return yaml_names(directory.string());
 }
 
+/// As did_you_mean(); a name may also have been given without its folder: "grazing" is meant for "hard/grazing".
+std::string meant_file(const std::string& name, const std::vector<std::string>& names) {
+  const std::string whole = did_you_mean(name, names);
+  if (!whole.empty()) return whole;
+  std::vector<std::string> last_parts;
+  for (const std::string& candidate : names) last_parts.push_back(fs::path(candidate).filename().string());
+  const std::optional<std::string> last = nearest_word(name, last_parts);
+  if (!last) return "";
+  const auto place = std::find(last_parts.begin(), last_parts.end(), *last) - last_parts.begin();
+  return ", did you mean " + names[static_cast<std::size_t>(place)] + "?";
+}
+
 }  // namespace
 
 std::vector<std::string> yaml_names(const std::string& folder) {
@@ -150,9 +165,11 @@ std::string find_package_file(const PackageFileKind& kind, const std::string& na
   }
   const std::string word = kind.singular;
   if (is_folder(name)) throw NoSuchFile(name + ": is a directory; a " + word + " is a YAML file");
-  std::string message = name + ": no such file, and no " + word + " of that name comes with the package";
+  const std::vector<std::string> names = shipped(kind, directory);
+  std::string message =
+      name + ": no such file, and no " + word + " of that name comes with the package" + meant_file(name, names);
   std::string separator = " (these do: ";
-  for (const std::string& candidate : shipped(kind, directory)) {
+  for (const std::string& candidate : names) {
     message += separator + candidate;
     separator = ", ";
   }

@@ -263,8 +263,7 @@ void TreeReader::fault(const std::string& key, const std::string& what) {
 void TreeReader::refuse_unknown_keys() {
   for (const auto& [key, node] : entries_) {
     if (index_of(key, known_)) continue;
-    const std::optional<std::string> meant = nearest_word(key, known_);
-    fault(key, "unknown key" + (meant ? ", did you mean " + *meant + "?" : "") + "; known here: " + join(known_, ", "));
+    fault(key, "unknown key" + did_you_mean(key, known_) + "; known here: " + join(known_, ", "));
   }
 }
 

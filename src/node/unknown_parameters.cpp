@@ -59,9 +59,7 @@ std::vector<std::string> unknown_parameters(const std::string& node, const std::
   std::vector<std::string> lines;
   for (const std::string& name : given) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::optional<std::string> meant = nearest_word(name, known);
-    lines.push_back("unknown parameter " + node + "/" + name + " is not read" +
-                    (meant ? "; did you mean " + *meant + "?" : ""));
+    lines.push_back("unknown parameter " + node + "/" + name + " is not read" + did_you_mean(name, known));
   }
   return lines;
 }

@@ -14,7 +14,7 @@ namespace vibratory_alignment {
 std::vector<std::string> known_parameters();
 
 /// One line for each of the given names that is not among the known ones: "unknown parameter /aligner/publish_rat is
-/// not read; did you mean publish_rate?". `node`: the node's name, with all its namespaces.
+/// not read, did you mean publish_rate?". `node`: the node's name, with all its namespaces.
 std::vector<std::string> unknown_parameters(const std::string& node, const std::vector<std::string>& given,
                                             const std::vector<std::string>& known);
 

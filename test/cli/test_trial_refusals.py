@@ -110,7 +110,13 @@ class UsageRefusalTest(AlignTestCase):
         self.assert_refused(["fly"], "fly")
 
     def test_unknown_option(self):
-        self.refuse(["--quick"], "--quick")
+        self.refuse(["--quick"], "--quick", "there is no such option")
+
+    def test_misspelt_names_are_guessed(self):
+        self.assert_refused(["trail", "fig2"], "did you mean trial?")
+        self.assert_refused(["trial", "hard/jaming"], "did you mean hard/jamming?")
+        self.refuse(["--tolerence", "1e-3"], "--tolerence", "did you mean --tolerance?")
+        self.refuse(["--sover=rk4"], "--sover:", "did you mean --solver?")
 
     def test_missing_scene(self):
         self.assert_refused(["trial"], "SCENE")

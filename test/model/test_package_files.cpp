@@ -40,6 +40,29 @@ TEST(YamlNames, AreSortedWithThoseInFoldersLast) {
   EXPECT_EQ(yaml_names(folder.path()), (std::vector<std::string>{"fig2", "r1", "hard/one", "hard/two", "hard/more/a"}));
 }
 
+std::string refusal(const std::string& name) {
+  try {
+    find_package_file(kSceneFile, name);
+  } catch (const NoSuchFile& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+TEST(SceneName, ThatIsMisspeltIsTakenForTheNearestOne) {
+  EXPECT_NE(refusal("fig22").find("fig22: no such file"), std::string::npos);
+  EXPECT_NE(refusal("fig22").find("did you mean fig2?"), std::string::npos) << refusal("fig22");
+  EXPECT_NE(refusal("hard/jaming").find("did you mean hard/jamming?"), std::string::npos) << refusal("hard/jaming");
+}
+
+TEST(SceneName, WithoutItsFolderIsTakenForTheOneInIt) {
+  EXPECT_NE(refusal("grazing").find("did you mean hard/grazing?"), std::string::npos) << refusal("grazing");
+}
+
+TEST(SceneName, LikeNoneIsTakenForNone) {
+  EXPECT_EQ(refusal("something_else").find("did you mean"), std::string::npos) << refusal("something_else");
+}
+
 TEST(YamlNames, OfNoFolderAreNone) { EXPECT_TRUE(yaml_names("/no/such/folder").empty()); }
 
 }  // namespace
