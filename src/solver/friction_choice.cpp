@@ -75,10 +75,13 @@ void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, Judgeme
   const ContactSeries& contact = probe_.loaded[loaded];
   const auto site = static_cast<std::size_t>(contact.site);
   const double limit = noise.h * noise.slip_rate[loaded];
-  // out of a stick that has just broken, V' starts at zero
+  // out of a stick that has just broken V' starts at zero, where it slides against the T at its limit; the other way
+  // T jumps, and V' with it
+  const SitePins& known = known_[site];
+  const bool against_limit = probe_.contacts[site].slip == Slip::plus ? known.hold_minus > 0 : known.hold_plus > 0;
   const double friction = system_.friction * contact.normal_force[0];
   const double nearly = noise.state_slip_rate[loaded] + limit_error() * noise.mobility[loaded] * std::abs(friction);
-  const bool broken = has_event(site) && std::abs(contact.slip_velocity[1]) <= nearly;
+  const bool broken = (known.normal > 0 || against_limit) && std::abs(contact.slip_velocity[1]) <= nearly;
   const LeadingTerm term = leading_term(contact.slip_velocity, broken ? 2 : 1, kOrder, noise.h, limit);
   const bool forward = term.positive == (probe_.contacts[site].slip == Slip::plus);
   if (term.order <= kOrder && !forward) {

@@ -50,14 +50,14 @@ DriveForms force(Direction direction, double constant, double slope = 0.0) {
 /// What is decided for contacts at rest, and the motion that follows from it.
 struct Decision {
   Decision(const System& system, const State& state, const DriveForms& drives, const std::vector<Touch>& touches,
-           const Pins& pins = {}, double tolerance = kTolerance) {
+           const Pins& pins = {}, double tolerance = kTolerance, bool unmoved = false) {
     SiteFlags at_rest{};
     for (const Touch& touch : touches) {
       mode.contacts[static_cast<std::size_t>(touch.site)] = {Phase::loaded, touch.face, Slip::none};
       at_rest[static_cast<std::size_t>(touch.site)] = true;
     }
     mode.pins = pins;
-    FrictionChoice(system, tolerance).decide(state, drives, at_rest, mode);
+    FrictionChoice(system, tolerance).decide(state, drives, at_rest, mode, unmoved);
     MotionSeries series(system);
     motion.contacts = mode.contacts;
     series.expand_contact(state, drives, kOrder, motion);
@@ -413,6 +413,35 @@ TEST(FrictionChoice, at_its_limit_a_contact_slides_if_the_load_falls) {
       const Decision pressed(part.system, part.q, force(Direction::x, -limit), {edge}, pins);
       EXPECT_EQ(pressed.slip(Site::a1), Slip::stick) << side << " " << up;
     }
+}
+
+// A part that is wedged between an edge and a side, at rest but for the last digits of its speeds; T of a2 has just
+// reached f N. Whether it grows is rounding. It may hold or slide against that T, but not turn about and push the part.
+TEST(FrictionChoice, a_contact_at_its_limit_does_not_slide_against_the_other_one) {
+  const System system = make_system(test::scene_of(R"(
+part: {half_width: 0.6533024798313821, base_distance: 0.606464783307624, inertia: 0.03447314207457151}
+slot: {clearance: 0.053760219630686126}
+gripper:
+  stiffness: {x: 0.1532690170178522, phi: 0.01446321999063751}
+  damping: {x: 0.0027129239407806365, y: 0.006295001295703382, phi: 0.0010618778660686629}
+  anchor: {x: -0.1123281066147859, phi: 0.10745577120090494}
+  pressing_force: 0.4733501863071037
+base: {stiffness: {x: 33725.69987592612, y: 3917.319811071386}, damping: {x: 802.0392452938243, y: 86.67758180587734}}
+contacts: [edges, corners]
+friction: {coefficient: 0.7192450877245007}
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: -0.1123281066147859, y: 0.6369575016453559, phi: -0.11972245052446842}
+trial: {time_limit: 1}
+)"));
+  const State q{0.055485408806291686,    0.20769353671458915,     -0.60876883028257556,
+                -4.2303049458802797e-15, -9.1846301269691012e-16, 4.8563052595935271e-15};
+  const std::vector<Touch> touches{{Site::a1, Face::right_side}, {Site::a2, Face::bottom}};
+  Pins pins;
+  pins[1].hold_plus = 1;
+  const Decision d(system, q, {}, touches, pins, 1e-9, true);
+  const double limit = system.friction * touch_point(system, q, touches[1]).normal_force;
+  EXPECT_NEAR(d.tangential_force(Site::a2), limit, 1e-9 * limit);
+  for (const Touch& touch : touches) expect_law(system, d, touch, 1e-5 * d.step);
 }
 
 /// Two edges under the bottom of a part with locked tilt: one motion, unequal loads.
