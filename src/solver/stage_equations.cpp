@@ -22,8 +22,9 @@ constexpr double kSettled = 1e-5;
 /// A correction that is not this much smaller than the one before shows that Jacobians are to be taken anew.
 constexpr double kSlow = 0.1;
 
-/// Steps with the Jacobian of every stage before the modes get another chance where they have failed.
-constexpr int kCoupledSteps = 16;
+/// Steps with the Jacobian of every stage before the modes get another chance where they have failed: at first, and at
+/// most where they fail each time; each time twice as many.
+constexpr int kFewestCoupledSteps = 1, kMostCoupledSteps = 16;
 
 /// Rounding of coordinates and velocities, relative to the size of the part and its speed.
 constexpr double kRounding = 4e-16;
@@ -219,12 +220,18 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   set_rounding(h);
   if (easily) return iterate(h, false, kEasyIterations, counts);
   if (coupled_steps_ == 0) {
-    if (iterate(h, false, kMostIterations, counts)) return true;
+    if (iterate(h, false, kMostIterations, counts)) {
+      next_coupled_steps_ = kFewestCoupledSteps;
+      return true;
+    }
     // in the tanh layer the step being too long is the likelier cause than the normal turning too far
     if (start_jacobian_.layer_count > 0 && ++failures_ == 1) return false;
   }
   if (!iterate(h, true, kMostIterations, counts)) return false;
-  if (coupled_steps_ == 0) coupled_steps_ = kCoupledSteps;
+  if (coupled_steps_ == 0) {
+    coupled_steps_ = next_coupled_steps_;
+    next_coupled_steps_ = std::min(2 * next_coupled_steps_, kMostCoupledSteps);
+  }
   return true;
 }
 
@@ -233,7 +240,7 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
 bool StageEquations::iterate(double h, bool coupled, int most_iterations, SolverCounts& counts) {
   guess(h);
   place_stages(h);
-  double before = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity(), before_that = before;
   bool renew = coupled;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Stages residual;
@@ -267,8 +274,11 @@ bool StageEquations::iterate(double h, bool coupled, int most_iterations, Solver
       keep_guess(h);
       return true;
     }
-    if (stagnates && iteration >= kTrials && (renew || !coupled)) return false;
+    // where the normal turns every other correction may be a small one
+    const bool stalls = stagnates && change > kSlow * before_that;
+    if (stalls && iteration >= kTrials && (renew || !coupled)) return false;
     renew = coupled && change > kSlow * before;
+    before_that = before;
     before = change;
   }
   return false;

@@ -1,5 +1,5 @@
 // The equations of one implicit step, a_i = f(c_i h, q_i, v_i) at the nodes of the collocation, and Newton's method on
-// them (docs/hybrid_step.md "Implicit steps").
+// them (docs/implicit_steps.md).
 #pragma once
 
 #include <Eigen/LU>
@@ -90,7 +90,8 @@ class StageEquations {
   double known_length_ = 0.0, known_ago_ = 0.0;
 
   long factorizations_ = 0;
-  int coupled_steps_ = 0;  ///< steps to come with the Jacobian of every stage
+  int coupled_steps_ = 0;       ///< steps to come with the Jacobian of every stage
+  int next_coupled_steps_ = 1;  ///< of these, where the modes fail next
   int failures_ = 0;       ///< of the modes since `start_`
   StageModes modes_;
   LayerCoupling layer_;

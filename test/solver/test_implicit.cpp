@@ -293,8 +293,9 @@ TEST(Implicit, automatic_choice_asks_no_implicit_step_where_the_trial_ends_at_on
 }
 
 /// A part that rests on the edge a1 without friction, tilted by phi.
-System resting(double phi) {
-  Scene scene = test::scene_of(test::plain, {"friction=null"});
+System resting(double phi, const std::vector<std::string>& settings = {}) {
+  Scene scene = test::scene_of(test::plain, settings);
+  scene.friction.reset();
   scene.initial.y.reset();
   scene.gripper.pressing_force = 3.0;
   scene.initial.phi = phi;
@@ -336,6 +337,50 @@ TEST(Implicit, what_is_to_be_solved_easily_takes_six_iterations_at_most) {
   }
   EXPECT_GT(easy, 0);
   EXPECT_GT(hard, 0);
+}
+
+/// Solves steps from rest on a stiff base, whose normal turns the farther the longer they are.
+struct StepsFromRest {
+  System system = resting(0.6, {"base={stiffness: {y: 2.5e6}}"});
+  StageEquations equations{system, 1e-6};
+
+  /// True when a step of this length takes the Jacobians of every stage.
+  bool takes_all_jacobians(double h) {
+    SolverCounts counts;
+    equations.begin(system.start, kNoDrives, on_edge(), false, counts);
+    const long before = equations.factorizations();
+    EXPECT_TRUE(equations.solve(h, counts)) << h;
+    return equations.factorizations() > before;
+  }
+};
+
+// Newton's method with the Jacobian of the start, where the normal turns: every other correction is hardly smaller than
+// the one before, but a hundredth of the one before that.
+TEST(Implicit, corrections_that_fall_in_pairs_need_no_other_jacobians) {
+  StepsFromRest steps;
+  for (const double h : {0.021, 0.024, 0.027}) EXPECT_FALSE(steps.takes_all_jacobians(h)) << h;
+}
+
+// Where that Jacobian has failed once, the next step has it again; where it fails time and again, ever later ones.
+TEST(Implicit, jacobians_of_every_stage_are_taken_no_longer_than_they_are_needed) {
+  constexpr double kEasy = 0.01, kHard = 0.05;
+  StepsFromRest steps;
+  EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
+  EXPECT_TRUE(steps.takes_all_jacobians(kHard));
+  EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
+  const auto easy_steps_with_all = [&] {
+    int count = 0;
+    while (count < 100 && steps.takes_all_jacobians(kEasy)) ++count;
+    return count;
+  };
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
+  EXPECT_EQ(easy_steps_with_all(), 1);
+  for (const int hard : {1 + 1 + 2 + 4 + 8, 1 + 1 + 2 + 4 + 8 + 16}) {
+    for (int i = 0; i < hard; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
+    EXPECT_EQ(easy_steps_with_all(), 15) << hard;
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
+  EXPECT_EQ(easy_steps_with_all(), 1);
 }
 
 TEST(Implicit, a_step_that_is_to_be_easy_is_given_up_at_the_first_trouble) {
@@ -464,6 +509,38 @@ TEST(Implicit, a_release_is_where_its_step_ends) {
 
 // In the tanh layer a contact is stiff as long as N is large: a step up to its release sees at its start nothing of the
 // slip in which it ends.
+// A corner that the base has left, and that it meets again while an edge slides in the tanh layer.
+TEST(Implicit, a_reload_is_where_the_state_has_it) {
+  const Scene scene = test::scene_of(R"(
+part: {half_width: 0.2, base_distance: 2, inertia: 0.0013}
+slot: {clearance: 0.002}
+gripper: {stiffness: {x: 0, phi: 0.5}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0.003}, pressing_force: 0.3}
+base: {stiffness: {x: 2.7e+03, y: 2.7e+03}, damping: {x: 4e+02, y: 4e+02}}
+contacts: [edges, corners]
+friction: {coefficient: 1, regularization: 0.0007}
+excitation: {amplitude: 1, frequency: 4}
+initial: {x: 0, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 7}
+solver: {name: implicit, tolerance: 1e-6, step_limit: 20000}
+)");
+  const System system = make_system(scene);
+  Simulation simulation(scene);
+  int reloads = 0;
+  while (simulation.advance()) {
+    const Segment& segment = simulation.segment();
+    for (int i = 0; i < segment.event_count; ++i) {
+      const Event& event = segment.events[i];
+      if (!segment.coarse || event.kind != EventKind::reload) continue;
+      const Face face = segment.contacts[static_cast<std::size_t>(event.site)].face;
+      const ContactKinematics k = contact_kinematics(system, segment.end, event.site, face);
+      const double spring = system.stiffness_y * k.depth;
+      EXPECT_NEAR(spring + system.damping_y * k.depth_rate, 0.0, 1e-12);
+      ++reloads;
+    }
+  }
+  EXPECT_GT(reloads, 0);
+}
+
 TEST(Implicit, follows_the_slip_of_a_contact_that_is_released_in_the_tanh_layer) {
   const Scene scene = load_scene(YAML::Load(R"(name: released_in_the_layer
 units: dimensionless
