@@ -1,5 +1,5 @@
 // Derivatives of the accelerations by the state, with the law that holds at each contact given: what Newton's method
-// takes from the equations of motion (docs/hybrid_step.md "Implicit steps").
+// takes from the equations of motion (docs/implicit_steps.md).
 #pragma once
 
 #include <Eigen/Core>

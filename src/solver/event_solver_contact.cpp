@@ -1,5 +1,5 @@
 // Part of EventSolver: how a step in contact is taken, by power series, by an implicit step, or by whichever goes
-// further for its cost (docs/hybrid_step.md "Contact", "Implicit steps", "Automatic").
+// further for its cost (docs/hybrid_step.md "Contact", docs/implicit_steps.md, docs/automatic.md).
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // The fastest motion in a segment's power series, a ring of the base or of the tanh layer, as their last terms show it
-// (docs/hybrid_step.md "Rings").
+// (docs/implicit_steps.md "Rings").
 #pragma once
 
 #include "mechanics/system.h"

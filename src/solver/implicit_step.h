@@ -1,6 +1,6 @@
 // One implicit step in contact: Radau IIA collocation of order 13 (solver/collocation.h) on q'' = f(t, q, q'), whose
 // length follows the motion and not the stiffness of the base, of a damper or of the tanh layer
-// (docs/hybrid_step.md "Implicit steps").
+// (docs/implicit_steps.md).
 #pragma once
 
 #include <limits>

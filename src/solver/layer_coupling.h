@@ -1,6 +1,6 @@
 // Newton's method on the equations of an implicit step with one Jacobian for all stages but for friction in the tanh
 // layer, which every stage takes at its own V: T = -f N tanh(V/eps) changes from stage to stage as nothing else does
-// (docs/hybrid_step.md "Implicit steps").
+// (docs/implicit_steps.md).
 #pragma once
 
 #include "solver/stage_modes.h"

@@ -1,5 +1,5 @@
 // Solver `auto`: which method takes the next step in contact, power series or implicit steps. Implicit steps are taken
-// on credit, which the series earn (docs/hybrid_step.md "Automatic").
+// on credit, which the series earn (docs/automatic.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Solver `implicit`: while the base rings the series follow, and implicit steps pass over what is left of the ring
-// (docs/hybrid_step.md "Rings").
+// (docs/implicit_steps.md "Rings").
 #pragma once
 
 #include "solver/implicit_step.h"

@@ -1,5 +1,5 @@
 // Newton's method on the equations of an implicit step with one Jacobian for all its stages: in the eigenvectors of A
-// they fall into equations of size 3, (I - h lambda f_v - h^2 lambda^2 f_q) (docs/hybrid_step.md "Implicit steps").
+// they fall into equations of size 3, (I - h lambda f_v - h^2 lambda^2 f_q) (docs/implicit_steps.md).
 #pragma once
 
 #include <Eigen/Core>

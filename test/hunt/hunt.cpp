@@ -9,7 +9,7 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
-/// Below the one an implicit step is known to rounding only (docs/hybrid_step.md "Rounding"), above the other it passes
+/// Below the one an implicit step is known to rounding only (docs/implicit_steps.md "Rounding"), above the other it passes
 /// over bounces that are smaller, and has other touches.
 constexpr double kLeastImplicitTolerance = 1e-10, kMostImplicitTolerance = 1e-6;
 

@@ -1,5 +1,5 @@
 // The fastest motion in a power series and the change of a normal force, from series that are known
-// (docs/hybrid_step.md "Rings").
+// (docs/implicit_steps.md "Rings").
 #include <gtest/gtest.h>
 
 #include <cmath>

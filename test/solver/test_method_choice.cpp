@@ -1,4 +1,4 @@
-// What the solver `auto` does with its credit (docs/hybrid_step.md "Automatic"). Costs are counted in series steps of
+// What the solver `auto` does with its credit (docs/automatic.md). Costs are counted in series steps of
 // one sliding contact, so that a series step of length 1 has the pace 1.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// When the series follow a ring of the base in the place of implicit steps (docs/hybrid_step.md "Rings").
+// When the series follow a ring of the base in the place of implicit steps (docs/implicit_steps.md "Rings").
 #include <gtest/gtest.h>
 
 #include "solver/ring_watch.h"
