@@ -165,16 +165,18 @@ double MethodChoice::trial_length() const {
 }
 
 StepBounds MethodChoice::bounds(double longest) const {
+  const auto paid = std::clamp(static_cast<long>(credit_ / kKind[kind_].evaluation), kMostTrialEvaluations,
+                               kMostEvaluations);
+  const bool resumes = resumed_length_ > 0.0;
   switch (attempt_) {
     case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};
-    case Attempt::trial: return {longest, kShortestTrial * pace(), kMostTrialEvaluations, false, resumed_length_ > 0.0};
+    case Attempt::trial: return {longest, kShortestTrial * pace(), resumes ? paid : kMostTrialEvaluations, false, resumes};
     case Attempt::passes_over:
       return {longest, kShortestPassing * pace(),
               sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations, !sticks(kind_), true};
     case Attempt::ordinary: break;
   }
-  const auto paid = static_cast<long>(credit_ / kKind[kind_].evaluation);
-  return {longest, 0.0, std::clamp(paid, kMostTrialEvaluations, kMostEvaluations)};
+  return {longest, 0.0, paid};
 }
 
 bool MethodChoice::asks_series() {

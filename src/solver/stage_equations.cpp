@@ -22,9 +22,10 @@ constexpr double kSettled = 1e-5;
 /// A correction that is not this much smaller than the one before shows that Jacobians are to be taken anew.
 constexpr double kSlow = 0.1;
 
-/// Steps with the Jacobian of every stage before the modes get another chance where they have failed: at first, and at
-/// most where they fail each time; each time twice as many.
-constexpr int kFewestCoupledSteps = 1, kMostCoupledSteps = 16;
+/// Steps with the Jacobian of every stage before the modes get another chance where they have failed: at first; twice as
+/// many each time they fail again before they have solved so many steps; and at most. In the tanh layer, where a failure
+/// shortens the step, most.
+constexpr int kFewestCoupledSteps = 1, kRarely = 8, kMostCoupledSteps = 16;
 
 /// Rounding of coordinates and velocities, relative to the size of the part and its speed.
 constexpr double kRounding = 4e-16;
@@ -221,7 +222,7 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   if (easily) return iterate(h, false, kEasyIterations, counts);
   if (coupled_steps_ == 0) {
     if (iterate(h, false, kMostIterations, counts)) {
-      next_coupled_steps_ = kFewestCoupledSteps;
+      if (++solved_by_modes_ >= kRarely) next_coupled_steps_ = kFewestCoupledSteps;
       return true;
     }
     // in the tanh layer the step being too long is the likelier cause than the normal turning too far
@@ -229,8 +230,9 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   }
   if (!iterate(h, true, kMostIterations, counts)) return false;
   if (coupled_steps_ == 0) {
-    coupled_steps_ = next_coupled_steps_;
+    coupled_steps_ = in_layer() ? kMostCoupledSteps : next_coupled_steps_;
     next_coupled_steps_ = std::min(2 * next_coupled_steps_, kMostCoupledSteps);
+    solved_by_modes_ = 0;
   }
   return true;
 }

@@ -292,10 +292,9 @@ TEST(Implicit, automatic_choice_asks_no_implicit_step_where_the_trial_ends_at_on
   }
 }
 
-/// A part that rests on the edge a1 without friction, tilted by phi.
-System resting(double phi, const std::vector<std::string>& settings = {}) {
+/// A part that rests on the edge a1, tilted by phi; without friction if none is set.
+System resting(double phi, const std::vector<std::string>& settings = {"friction=null"}) {
   Scene scene = test::scene_of(test::plain, settings);
-  scene.friction.reset();
   scene.initial.y.reset();
   scene.gripper.pressing_force = 3.0;
   scene.initial.phi = phi;
@@ -341,17 +340,25 @@ TEST(Implicit, what_is_to_be_solved_easily_takes_six_iterations_at_most) {
 
 /// Solves steps from rest on a stiff base, whose normal turns the farther the longer they are.
 struct StepsFromRest {
-  System system = resting(0.6, {"base={stiffness: {y: 2.5e6}}"});
-  StageEquations equations{system, 1e-6};
+  explicit StepsFromRest(const char* friction = "friction=null")
+      : system(resting(0.6, {"base={stiffness: {y: 2.5e6}}", friction})), equations(system, 1e-6) {
+    contacts[0].slip = system.regularization > 0.0 ? Slip::regularized : Slip::none;
+  }
 
   /// True when a step of this length takes the Jacobians of every stage.
   bool takes_all_jacobians(double h) {
-    SolverCounts counts;
-    equations.begin(system.start, kNoDrives, on_edge(), false, counts);
+    begin();
     const long before = equations.factorizations();
     EXPECT_TRUE(equations.solve(h, counts)) << h;
     return equations.factorizations() > before;
   }
+
+  void begin() { equations.begin(system.start, kNoDrives, contacts, false, counts); }
+
+  System system;
+  StageEquations equations;
+  ContactStates contacts = on_edge();
+  SolverCounts counts;
 };
 
 // Newton's method with the Jacobian of the start, where the normal turns: every other correction is hardly smaller than
@@ -361,26 +368,43 @@ TEST(Implicit, corrections_that_fall_in_pairs_need_no_other_jacobians) {
   for (const double h : {0.021, 0.024, 0.027}) EXPECT_FALSE(steps.takes_all_jacobians(h)) << h;
 }
 
-// Where that Jacobian has failed once, the next step has it again; where it fails time and again, ever later ones.
+// Where that Jacobian has failed once, the next step has it again; where it fails before it has solved eight, ever later
+// ones.
 TEST(Implicit, jacobians_of_every_stage_are_taken_no_longer_than_they_are_needed) {
   constexpr double kEasy = 0.01, kHard = 0.05;
   StepsFromRest steps;
-  EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
-  EXPECT_TRUE(steps.takes_all_jacobians(kHard));
-  EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
   const auto easy_steps_with_all = [&] {
     int count = 0;
     while (count < 100 && steps.takes_all_jacobians(kEasy)) ++count;
     return count;
   };
-  for (int i = 0; i < 2; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
+  const auto fail = [&](int times) {
+    for (int i = 0; i < times; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
+  };
+  fail(1);
+  EXPECT_EQ(easy_steps_with_all(), 0);
+  fail(1);
   EXPECT_EQ(easy_steps_with_all(), 1);
-  for (const int hard : {1 + 1 + 2 + 4 + 8, 1 + 1 + 2 + 4 + 8 + 16}) {
-    for (int i = 0; i < hard; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
-    EXPECT_EQ(easy_steps_with_all(), 15) << hard;
-  }
-  for (int i = 0; i < 2; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kHard));
-  EXPECT_EQ(easy_steps_with_all(), 1);
+  for (int i = 1; i < 7; ++i) EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
+  fail(1);  // after seven that it has solved
+  EXPECT_EQ(easy_steps_with_all(), 3);
+  fail(1 + 8 + 16);
+  EXPECT_EQ(easy_steps_with_all(), 15);
+  for (int i = 1; i < 8; ++i) EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
+  fail(1);  // after eight
+  EXPECT_EQ(easy_steps_with_all(), 0);
+}
+
+// In the tanh layer a failure costs a step of half the length as well, so that the next steps do without an attempt.
+TEST(Implicit, in_the_tanh_layer_jacobians_of_every_stage_are_taken_for_sixteen_steps) {
+  StepsFromRest steps("friction={coefficient: 0.3, regularization: 0.2}");
+  constexpr double kEasy = 0.01, kHard = 0.04;
+  EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
+  steps.begin();
+  EXPECT_FALSE(steps.equations.solve(kHard, steps.counts));
+  EXPECT_TRUE(steps.equations.solve(kHard, steps.counts));
+  for (int i = 1; i < 16; ++i) EXPECT_TRUE(steps.takes_all_jacobians(kEasy)) << i;
+  EXPECT_FALSE(steps.takes_all_jacobians(kEasy));
 }
 
 TEST(Implicit, a_step_that_is_to_be_easy_is_given_up_at_the_first_trouble) {

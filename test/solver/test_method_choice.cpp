@@ -266,6 +266,7 @@ TEST(MethodChoice, implicit_steps_that_have_paid_go_on_as_soon_as_the_ring_is_pa
   EXPECT_TRUE(choice.implicit());
   EXPECT_DOUBLE_EQ(choice.trial_length(), 1.01 * kPays);
   EXPECT_TRUE(choice.bounds(kFar).passes_over);
+  EXPECT_EQ(choice.bounds(kFar).evaluations, 130);  // what the credit pays, not a trial's 50
 }
 
 // Steps that grow from 1 to r go on to r^4 r, at most to 4 r.
