@@ -18,6 +18,9 @@ STYLES = {
     "rk4": ("#D55E00", "D"),
     "ode": ("#CC79A7", "X"),
 }
+SOLID = {"markersize": 4.5, "linewidth": 1.2, "zorder": 3}
+# `auto` often is `event` or `implicit` to the bit: both stay to be seen
+HOLLOW = {"markersize": 8.5, "linewidth": 1.2, "linestyle": "--", "markerfacecolor": "none", "zorder": 2}
 
 
 def read_lines(path):
@@ -37,7 +40,8 @@ def draw(lines, floor, title, target, kind):
     figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
     for solver, points in lines.items():
         colour, mark = STYLES.get(solver, ("#000000", "."))
-        axes.loglog(*zip(*points), color=colour, marker=mark, markersize=4.5, linewidth=1.2, label=solver)
+        style = HOLLOW if solver == "auto" else SOLID
+        axes.loglog(*zip(*points), color=colour, marker=mark, label=solver, **style)
     if floor > 0.0:
         axes.axvspan(axes.get_xlim()[0], floor, color="0.93", zorder=0)
     axes.invert_xaxis()
