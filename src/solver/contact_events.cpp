@@ -293,8 +293,8 @@ class Search {
   }
 
   /// k(n) and h(n) that turn with the part fall off more slowly in the series than the motion by which the step is
-  /// chosen, and what an implicit step cuts off of cos phi and sin phi shows in d': the time at which they load again is
-  /// corrected by the state there. `g`: -(k d + h d').
+  /// chosen, and what an implicit step cuts off of cos phi and sin phi shows in d': the time at which they load again
+  /// is corrected by the state there. `g`: -(k d + h d').
   double reload_time(double found, Site site, Face face, const Series& g) const {
     double slope = 0.0, time = found;
     for (int k = order_ - 1; k >= 1; --k) slope = slope * found + k * g[k];
@@ -325,7 +325,8 @@ class Search {
       for (int k = 0; k < order_; ++k) g[k] = -g[k];
       const double time = first_fall(g, order_ - 1, duration_, pins_[index].normal);
       const bool turning = is_part_face(face) && !system_.isotropic;
-      offer((turning || segment_.coarse) && time > 0.0 ? reload_time(time, site, face, g) : time, EventKind::reload, site);
+      const bool corrects = (turning || segment_.coarse) && time > 0.0;
+      offer(corrects ? reload_time(time, site, face, g) : time, EventKind::reload, site);
     }
     guard_limits(site, face);
   }

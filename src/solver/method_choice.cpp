@@ -170,7 +170,8 @@ StepBounds MethodChoice::bounds(double longest) const {
   const bool resumes = resumed_length_ > 0.0;
   switch (attempt_) {
     case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};
-    case Attempt::trial: return {longest, kShortestTrial * pace(), resumes ? paid : kMostTrialEvaluations, false, resumes};
+    case Attempt::trial:
+      return {longest, kShortestTrial * pace(), resumes ? paid : kMostTrialEvaluations, false, resumes};
     case Attempt::passes_over:
       return {longest, kShortestPassing * pace(),
               sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations, !sticks(kind_), true};

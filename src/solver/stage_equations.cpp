@@ -22,9 +22,9 @@ constexpr double kSettled = 1e-5;
 /// A correction that is not this much smaller than the one before shows that Jacobians are to be taken anew.
 constexpr double kSlow = 0.1;
 
-/// Steps with the Jacobian of every stage before the modes get another chance where they have failed: at first; twice as
-/// many each time they fail again before they have solved so many steps; and at most. In the tanh layer, where a failure
-/// shortens the step, most.
+/// Steps with the Jacobian of every stage before the modes get another chance where they have failed: at first; twice
+/// as many each time they fail again before they have solved so many steps; and at most. In the tanh layer, where a
+/// failure shortens the step, most.
 constexpr int kFewestCoupledSteps = 1, kRarely = 8, kMostCoupledSteps = 16;
 
 /// Rounding of coordinates and velocities, relative to the size of the part and its speed.

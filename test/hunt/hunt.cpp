@@ -9,8 +9,8 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
-/// Below the one an implicit step is known to rounding only (docs/implicit_steps.md "Rounding"), above the other it passes
-/// over bounces that are smaller, and has other touches.
+/// Below the one an implicit step is known to rounding only (docs/implicit_steps.md "Rounding"), above the other it
+/// passes over bounces that are smaller, and has other touches.
 constexpr double kLeastImplicitTolerance = 1e-10, kMostImplicitTolerance = 1e-6;
 
 void allow_open_fault(Verdict& verdict) {

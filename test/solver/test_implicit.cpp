@@ -361,15 +361,15 @@ struct StepsFromRest {
   SolverCounts counts;
 };
 
-// Newton's method with the Jacobian of the start, where the normal turns: every other correction is hardly smaller than
-// the one before, but a hundredth of the one before that.
+// Newton's method with the Jacobian of the start, where the normal turns: every other correction is hardly smaller
+// than the one before, but a hundredth of the one before that.
 TEST(Implicit, corrections_that_fall_in_pairs_need_no_other_jacobians) {
   StepsFromRest steps;
   for (const double h : {0.021, 0.024, 0.027}) EXPECT_FALSE(steps.takes_all_jacobians(h)) << h;
 }
 
-// Where that Jacobian has failed once, the next step has it again; where it fails before it has solved eight, ever later
-// ones.
+// Where that Jacobian has failed once, the next step has it again; where it fails before it has solved eight, ever
+// later ones.
 TEST(Implicit, jacobians_of_every_stage_are_taken_no_longer_than_they_are_needed) {
   constexpr double kEasy = 0.01, kHard = 0.05;
   StepsFromRest steps;
