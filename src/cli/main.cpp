@@ -66,7 +66,8 @@ void check_command(const char* word) {
     names.emplace_back(command.name);
     list += (list.empty() ? "" : ", ") + names.back();
   }
-  throw UsageError(word + (": there is no such command" + did_you_mean(word, names)) + "; there are " + list);
+  throw UsageError(std::string(word) + ": there is no such command" + did_you_mean(word, names) + "; there are " +
+                   list);
 }
 
 /// The first option given to a command that it does not have, as a message; empty when there is none.

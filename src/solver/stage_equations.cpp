@@ -226,7 +226,7 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
       return true;
     }
     // in the tanh layer the step being too long is the likelier cause than the normal turning too far
-    if (start_jacobian_.layer_count > 0 && ++failures_ == 1) return false;
+    if (in_layer() && ++failures_ == 1) return false;
   }
   if (!iterate(h, true, kMostIterations, counts)) return false;
   if (coupled_steps_ == 0) {

@@ -93,7 +93,7 @@ class StageEquations {
   int coupled_steps_ = 0;       ///< steps to come with the Jacobian of every stage
   int next_coupled_steps_ = 1;  ///< of these, where the modes fail next
   int solved_by_modes_ = 0;     ///< steps since the modes have failed
-  int failures_ = 0;       ///< of the modes since `start_`
+  int failures_ = 0;            ///< of the modes since `start_`
   StageModes modes_;
   LayerCoupling layer_;
   /// The whole matrix of Newton's method, with the Jacobians of every stage.

@@ -3,6 +3,7 @@
 import itertools
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -42,6 +43,13 @@ class Record(unittest.TestCase):
                                               universal_newlines=True)
             self.assertEqual(set(re.findall(r' /aligner/align/(\w+)', command)), expected)
             self.assertIn(' /aligner/restarts', command)
+
+    def test_a_scene_file_may_end_in_yml(self):
+        path = os.path.join(self.directory.name, 'small.yml')
+        shutil.copy(scene_path('small'), path)
+        parameters = subprocess.check_output(['roslaunch', '--dump-params', 'vibratory_alignment', 'trial.launch',
+                                              'rviz:=false', 'scene:=' + path], universal_newlines=True)
+        self.assertIn('/aligner/scene/name: small\n', parameters)
 
     def test_live_bag_is_whole(self):
         self.assertEqual(os.path.exists(self.live + '.active'), False)
