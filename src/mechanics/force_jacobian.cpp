@@ -115,12 +115,13 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
         share = std::tanh(k.slip_velocity / system.regularization);
         share_by_v = (1.0 - share) * (1.0 + share) / system.regularization;
         result.layer[static_cast<std::size_t>(result.layer_count++)] = {
-            i, inverse.cwiseProduct(g.tangent), n_by_q, n_by_v, g.slip_velocity_by_position, g.tangent.transpose()};
+            i, inverse.cwiseProduct(g.tangent), g.slip_velocity_by_position, g.tangent.transpose()};
         break;
       case Slip::stick: stuck[static_cast<std::size_t>(stuck_count++)] = sticking(k, g, part_face, state); break;
       case Slip::none: break;
     }
     const Vector3d push = g.normal - f * share * g.tangent;
+    result.normal[static_cast<std::size_t>(i)] = {inverse.cwiseProduct(push), n_by_q, n_by_v};
     by_q += push * n_by_q - f * n * share_by_v * g.tangent * g.slip_velocity_by_position + n * g.normal_by_position +
             t * g.tangent_by_position;
     by_v += push * n_by_v - f * n * share_by_v * g.tangent * g.tangent.transpose();
@@ -141,6 +142,11 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
     holding.set(system, rows, stuck_count);
     hold(holding, rate_by_q, stuck_count, by_q);
     hold(holding, rate_by_v, stuck_count, by_v);
+    for (int i = 0; i < forces.count; ++i) {
+      Vector3d& push = result.normal[static_cast<std::size_t>(i)].push;
+      const HoldingForces::Answer held = holding.hold_motion({{}, push[0], push[1], push[2]}, {});
+      push << held.x, held.y, held.phi;
+    }
   }
   const auto lock = [&](const Axis& axis, int column) {
     if (axis.moves) return;

@@ -8,18 +8,24 @@
 
 namespace vibratory_alignment {
 
+/// The normal force of one contact.
+struct NormalJacobian {
+  Eigen::Vector3d push;                         ///< accelerations that N = 1 causes, with the friction it allows
+  Eigen::RowVector3d by_position, by_velocity;  ///< derivatives of N
+};
+
 /// What friction in the tanh layer is made of, T = -f N tanh(V/eps), at one contact.
 struct LayerJacobian {
   int contact = 0;                                        ///< index in Forces::contact
   Eigen::Vector3d push;                                   ///< accelerations that T = 1 causes
-  Eigen::RowVector3d n_by_position, n_by_velocity;        ///< derivatives of N
-  Eigen::RowVector3d slip_by_position, slip_by_velocity;  ///< of V
+  Eigen::RowVector3d slip_by_position, slip_by_velocity;  ///< derivatives of V
 };
 
 /// Rows: x'', y'', phi''. The columns of a locked axis are zero.
 struct ForceJacobian {
   Eigen::Matrix3d by_position;  ///< by x, y, phi
   Eigen::Matrix3d by_velocity;  ///< by x', y', phi'
+  std::array<NormalJacobian, kSiteCount> normal;  ///< of the contacts of Forces::contact, part of the above
   int layer_count = 0;
   std::array<LayerJacobian, kSiteCount> layer;  ///< of the contacts in the tanh layer, which are part of the above
 };

@@ -6,22 +6,26 @@
 #include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
+namespace {
 
-void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
-                     Forces& forces) {
+/// `acting`: null for the normal forces of the state.
+inline void evaluate(const NormalForces* acting, const System& system, const State& state, const Load3& drive,
+                     const ContactStates& contacts, Forces& forces) {
   double fx = drive.x - system.x.damping * state.vx - system.x.stiffness * (state.x - system.x.anchor);
   double fy = drive.y - system.y.damping * state.vy - system.y.stiffness * (state.y - system.y.anchor) - system.weight;
   double moment = drive.phi - system.phi.damping * state.omega - system.phi.stiffness * (state.phi - system.phi.anchor);
   const auto [c, s] = tilt_of(state.phi);
-  std::array<ContactKinematics, kSiteCount> kinematics;
-  std::array<int, kSiteCount> sticking{};
+  // of what sticks: index, row of J, and V' that the velocities alone cause
+  std::array<int, kSiteCount> sticking;
+  HoldingForces::Rows rows;
+  HoldingForces::Vector slip_rates;
   int sticking_count = 0;
   forces.count = 0;
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     const ContactState& contact = contacts[i];
     if (contact.phase != Phase::loaded) continue;
     const auto index = static_cast<std::size_t>(forces.count);
-    const ContactKinematics& k = kinematics[index] = contact_kinematics(
+    const ContactKinematics k = contact_kinematics(
         system, state, static_cast<Site>(i), contact.face, site_point(system, state, static_cast<Site>(i), c, s), c, s);
     ContactForce& force = forces.contact[index];
     force.site = static_cast<Site>(i);
@@ -29,21 +33,25 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
     force.slip_velocity = k.slip_velocity;
     force.normal_force =
         stiffness_of(system, contact.face, c, s) * k.depth + damping_of(system, contact.face, c, s) * k.depth_rate;
+    double ratio = 0.0;
     switch (contact.slip) {
-      case Slip::plus: force.tangential_force = -system.friction * force.normal_force; break;
-      case Slip::minus: force.tangential_force = system.friction * force.normal_force; break;
-      case Slip::regularized:
-        force.tangential_force =
-            -system.friction * force.normal_force * std::tanh(k.slip_velocity / system.regularization);
+      case Slip::plus: ratio = -system.friction; break;
+      case Slip::minus: ratio = system.friction; break;
+      case Slip::regularized: ratio = -system.friction * std::tanh(k.slip_velocity / system.regularization); break;
+      case Slip::stick: {
+        const auto m = static_cast<std::size_t>(sticking_count++);
+        sticking[m] = forces.count;
+        rows[m] = {k.tangent.x, k.tangent.y, cross(k.lever, k.tangent)};
+        slip_rates[m] = k.slip_rate;
         break;
-      case Slip::stick:
-        force.tangential_force = 0.0;
-        sticking[static_cast<std::size_t>(sticking_count++)] = forces.count;
-        break;
-      case Slip::none: force.tangential_force = 0.0; break;
+      }
+      case Slip::none: break;
     }
-    const Vec2 total{force.normal_force * k.normal.x + force.tangential_force * k.tangent.x,
-                     force.normal_force * k.normal.y + force.tangential_force * k.tangent.y};
+    force.friction_ratio = ratio;
+    force.tangential_force = ratio * force.normal_force;
+    const double normal_force = acting ? (*acting)[index] : force.normal_force, tangential_force = ratio * normal_force;
+    const Vec2 total{normal_force * k.normal.x + tangential_force * k.tangent.x,
+                     normal_force * k.normal.y + tangential_force * k.tangent.y};
     fx += total.x;
     fy += total.y;
     moment += cross(k.lever, total);
@@ -55,13 +63,6 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
   if (sticking_count == 0) return;
 
   // T of what sticks takes out V'
-  HoldingForces::Rows rows{};
-  HoldingForces::Vector slip_rates{};
-  for (int m = 0; m < sticking_count; ++m) {
-    const ContactKinematics& k = kinematics[static_cast<std::size_t>(sticking[m])];
-    rows[m] = {k.tangent.x, k.tangent.y, cross(k.lever, k.tangent)};
-    slip_rates[m] = k.slip_rate;
-  }
   HoldingForces holding;
   holding.set(system, rows, sticking_count);
   const HoldingForces::Answer held = holding.hold_motion({{}, forces.ax, forces.ay, forces.alpha}, slip_rates);
@@ -70,6 +71,18 @@ void evaluate_forces(const System& system, const State& state, const Load3& driv
   forces.ax = held.x;
   forces.ay = held.y;
   forces.alpha = held.phi;
+}
+
+}  // namespace
+
+void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
+                     Forces& forces) {
+  evaluate(nullptr, system, state, drive, contacts, forces);
+}
+
+void evaluate_forces_under(const NormalForces& acting, const System& system, const State& state, const Load3& drive,
+                           const ContactStates& contacts, Forces& forces) {
+  evaluate(&acting, system, state, drive, contacts, forces);
 }
 
 }  // namespace vibratory_alignment

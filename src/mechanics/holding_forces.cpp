@@ -109,10 +109,8 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   const double weight[3] = {inverse_inertia_[0], inverse_inertia_[1], reach_ * reach_ * inverse_inertia_[2]};
   const double most = *std::max_element(weight, weight + 3);
   double least = most, largest = 0.0;
-  for (int a = 0; a < 3; ++a) {
-    scale_[a] = std::sqrt(weight[a]);
+  for (int a = 0; a < 3; ++a)
     if (weight[a] * kMotionless > most) least = std::min(least, weight[a]);
-  }
   for (int i = 0; i < count; ++i) largest = std::max(largest, mobility(i));
   holds_nothing_ = largest <= kNoMobility * typical_mobility(system);
   delicate_ = most > kUnequal * least;
@@ -120,6 +118,7 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   single_ = {mobility(0), inverse_inertia_[0] * rows[0].x, inverse_inertia_[1] * rows[0].y,
              inverse_inertia_[2] * rows[0].moment};
   if (count == 1 || holds_nothing_) return;
+  for (int a = 0; a < 3; ++a) scale_[a] = std::sqrt(weight[a]);
   Decomposition decomposed = decompose();
   safe_ = factorize(decomposed, kNearlySame);
   // where both are of the same rank, only the first is used

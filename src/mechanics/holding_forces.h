@@ -120,7 +120,7 @@ class HoldingForces {
   bool regular_ = true, delicate_ = false, holds_nothing_ = false;
   std::array<double, 3> inverse_inertia_{};
   double reach_ = 1.0;             ///< what levers are measured by
-  std::array<double, 3> scale_{};  ///< M^-1/2 of x, y and phi times the reach
+  std::array<double, 3> scale_{};  ///< M^-1/2 of x, y and phi times the reach; of several contacts
   Rows rows_{};
   struct {
     double mobility = 0.0, x = 0.0, y = 0.0, phi = 0.0;  ///< G, and how T = 1 changes the rates of the axes

@@ -55,8 +55,7 @@ class EventSolver final : public Solver {
   void retake_to_events(const DriveForms& drives, FoundEvents& found);
   bool contradicted() const;
   void believe_state();
-  StepEffort effort() const;
-  StepEffort spent() const;
+  long spent() const;
   void settle(double gone, double longest);
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
@@ -96,7 +95,7 @@ class EventSolver final : public Solver {
   double series_step_ = 0.0;      ///< last step of the series in contact
   RingWatch ring_watch_;          ///< implicit
   MethodChoice choice_;           ///< automatic
-  StepEffort effort_before_;      ///< automatic: until the present step
+  long evaluations_before_ = 0;   ///< automatic: until the present step
   Segment segment_;
   FoundEvents found_;  ///< in the step that is being taken
 

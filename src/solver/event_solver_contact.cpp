@@ -186,7 +186,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
     counts_.rhs_evaluations += segment_.order;
   }
   if (choice_.implicit()) {
-    effort_before_ = effort();
+    evaluations_before_ = counts_.rhs_evaluations;
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
     if (step > 0.0) return step;
     choice_.give_up_implicit(spent());
@@ -280,14 +280,8 @@ void EventSolver::believe_state() {
   }
 }
 
-/// Evaluations and factorizations until now.
-StepEffort EventSolver::effort() const { return {counts_.rhs_evaluations, implicit_.factorizations()}; }
-
-/// What the present implicit step has taken.
-StepEffort EventSolver::spent() const {
-  const StepEffort now = effort();
-  return {now.evaluations - effort_before_.evaluations, now.factorizations - effort_before_.factorizations};
-}
+/// Evaluations of the forces that the present implicit step has taken, also in attempts that were given up.
+long EventSolver::spent() const { return counts_.rhs_evaluations - evaluations_before_; }
 
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.

@@ -67,9 +67,6 @@ class ImplicitStep {
   /// The motion does not go on from the end of the last step.
   void forget() { taken_ = false; }
 
-  /// Factorizations until now (solver/stage_equations.h).
-  long factorizations() const { return equations_.factorizations(); }
-
   /// The state at the end of the last step.
   const State& end() const { return equations_.end(); }
 

@@ -7,6 +7,10 @@
 
 namespace vibratory_alignment {
 
+/// Forces at the stages of a step, and normal forces there.
+using StageForces = Collocation::Vector<Forces>;
+using StageNormals = Collocation::Vector<NormalForces>;
+
 class LayerCoupling {
  public:
   explicit LayerCoupling(const System& system) : system_(system) {}
@@ -14,8 +18,8 @@ class LayerCoupling {
   /// For a step with these modes of the Jacobian at its start, where the forces are `start`.
   void set(const StageModes& modes, double h, const ForceJacobian& jacobian, const Forces& start);
 
-  /// The modes' correction where the stages have these forces.
-  Stages correction(const Stages& residual, const std::array<Forces, Collocation::kStages>& forces) const;
+  /// The modes' correction where the stages have these forces, and `acting` are the normal forces that act.
+  Stages correction(const Stages& residual, const StageForces& forces, const StageNormals& acting) const;
 
  private:
   static constexpr int kMost = Collocation::kStages * kSiteCount;

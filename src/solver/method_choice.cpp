@@ -6,20 +6,19 @@
 namespace vibratory_alignment {
 namespace {
 
-/// A kind of contacts. Costs: of a step of the series, of one evaluation of the forces in an implicit step and of one
-/// factorization; 1 is the time of a series step of one sliding contact. The base rings alike, so that the series go
-/// about as far, where `ring` is the same.
+/// A kind of contacts. Costs: of a step of the series, and of one evaluation of the forces in an implicit step; 1 is the
+/// time of a series step of one sliding contact. The base rings alike, so that the series go about as far, where `ring`
+/// is the same.
 struct Kind {
-  double series, evaluation, factorization;
+  double series, evaluation;
   int ring;
 
   /// Cost of an implicit step that takes this.
-  constexpr double implicit(const StepEffort& effort) const {
+  constexpr double implicit(long evaluations) const {
     constexpr double kStep = 0.6;
-    return kStep + evaluation * static_cast<double>(effort.evaluations) +
-           factorization * static_cast<double>(effort.factorizations);
+    return kStep + evaluation * static_cast<double>(evaluations);
   }
-  constexpr double usual_implicit() const { return implicit({36, 0}); }
+  constexpr double usual_implicit() const { return implicit(36); }
 };
 
 /// By the dearest law that contacts follow, and for each: one that is alone, beside others, beside others of that law.
@@ -27,15 +26,15 @@ struct Kind {
 /// do by a factorization. What sticking adds is softer than the base, the tanh layer is not; two that stick hold the
 /// part.
 constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;
-constexpr std::array<Kind, 9> kKind = {{{1.0, 0.165, 5.5, 0},
-                                        {2.2, 0.19, 5.5, 1},
-                                        {2.2, 0.19, 5.5, 1},
-                                        {1.5, 0.23, 6.0, 0},
-                                        {4.5, 0.23, 6.0, 1},
-                                        {5.2, 1.1, 12.0, 2},
-                                        {1.2, 0.33, 3.5, 3},
-                                        {2.6, 0.35, 3.3, 4},
-                                        {3.1, 0.55, 2.2, 4}}};
+constexpr std::array<Kind, 9> kKind = {{{1.0, 0.165, 0},
+                                        {2.2, 0.19, 1},
+                                        {2.2, 0.19, 1},
+                                        {1.5, 0.23, 0},
+                                        {4.5, 0.23, 1},
+                                        {5.2, 1.1, 2},
+                                        {1.2, 0.33, 3},
+                                        {2.6, 0.35, 4},
+                                        {3.1, 0.55, 4}}};
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
@@ -210,20 +209,20 @@ void MethodChoice::settle_series(double gone, double longest) {
   pace.way += (gone / kKind[kind_].series - pace.way) / pace.steps;
 }
 
-void MethodChoice::settle_implicit(double gone, double longest, const StepEffort& effort) {
+void MethodChoice::settle_implicit(double gone, double longest, long evaluations) {
   if (gone > 0.0) may_pass_over_ = false;
   attempt_ = Attempt::ordinary;
   wait_ = 0;
   ++implicit_steps_;
-  const double gain = gone / pace() - kKind[kind_].implicit(effort);
+  const double gain = gone / pace() - kKind[kind_].implicit(evaluations);
   paid_ = paid_ || gain > 0.0;
   // cut short by a kink or the limit, it has not lost
   if (!(gone == longest && gain < 0.0)) book_implicit(gain);
 }
 
-void MethodChoice::give_up_implicit(const StepEffort& effort) {
+void MethodChoice::give_up_implicit(long evaluations) {
   // what the question whether a ring can be passed over has cost says nothing about implicit steps
-  if (attempt_ != Attempt::passes_over) book_implicit(-kKind[kind_].implicit(effort));
+  if (attempt_ != Attempt::passes_over) book_implicit(-kKind[kind_].implicit(evaluations));
   if (attempt_ == Attempt::trial && resumed_length_ > 0.0) wait_ = std::max(kWait, 2 * wait_);
   attempt_ = Attempt::ordinary;
   if (implicit_) leave_to_series(kTrialAfter);

@@ -14,12 +14,6 @@ namespace vibratory_alignment {
 /// steps alone; or whichever goes further for its cost.
 enum class ContactMethod { series, implicit, implicit_alone, automatic };
 
-/// What an implicit step has taken, also in attempts that were given up.
-struct StepEffort {
-  long evaluations = 0;  ///< of the forces
-  long factorizations = 0;
-};
-
 class MethodChoice {
  public:
   MethodChoice();
@@ -67,10 +61,10 @@ class MethodChoice {
   void settle_series(double gone, double longest);
 
   /// An implicit step has gone `gone` of at most `longest`; 0: an event came at once.
-  void settle_implicit(double gone, double longest, const StepEffort& effort);
+  void settle_implicit(double gone, double longest, long evaluations);
 
   /// An implicit step was given up.
-  void give_up_implicit(const StepEffort& effort);
+  void give_up_implicit(long evaluations);
 
   /// The normal forces jump: the base rings.
   void ring();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
+
 namespace vibratory_alignment {
 namespace {
 
@@ -13,19 +15,17 @@ constexpr int kEasyIterations = 6, kMostIterations = 10;
 /// Iterations in which corrections may grow.
 constexpr int kTrials = 3;
 
-/// Newton's last correction as a share of the error allowed.
-constexpr double kConverged = 1e-2;
+/// Newton's last correction as a share of the error allowed; and the next one, as foreseen where corrections fall at
+/// least at this rate.
+constexpr double kConverged = 1e-2, kForeseen = 1e-3, kFast = 0.1;
 
-/// A residual that needs no correction, as a share of the error allowed, where rounding does not hide it.
-constexpr double kSettled = 1e-5;
+/// A residual that needs no correction, as a share of the error allowed, where rounding does not hide it; and one that
+/// a correction may leave, as foreseen: what N of the state is beyond the N that the accelerations are made by.
+constexpr double kSettled = 1e-5, kLeft = 0.1;
 
-/// A correction that is not this much smaller than the one before shows that Jacobians are to be taken anew.
-constexpr double kSlow = 0.1;
-
-/// Steps with the Jacobian of every stage before the modes get another chance where they have failed: at first; twice
-/// as many each time they fail again before they have solved so many steps; and at most. In the tanh layer, where a
-/// failure shortens the step, most.
-constexpr int kFewestCoupledSteps = 1, kRarely = 8, kMostCoupledSteps = 16;
+/// Corrections may come in pairs of about the same size: a later one that is not this much smaller than the one before the
+/// last does not get smaller.
+constexpr double kPairs = 0.1;
 
 /// Rounding of coordinates and velocities, relative to the size of the part and its speed.
 constexpr double kRounding = 4e-16;
@@ -61,49 +61,56 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
   evaluate(start, start_drive_, start_forces_, counts);
   start_jacobian_ = force_jacobian(system_, start, contacts, start_forces_);
   forces_before_ = follows ? forces_[kStages - 1] : start_forces_;
-  if (coupled_steps_ > 0) --coupled_steps_;
-  failures_ = 0;
 }
 
-/// Accelerations at the nodes to begin with: the polynomial of the solution at hand, continued.
+/// Accelerations and normal forces at the nodes to begin with: the polynomials of the solution at hand, continued.
 void StageEquations::guess(double h) {
   const Collocation& table = collocation();
+  const auto contacts = static_cast<std::size_t>(start_forces_.count);
   if (known_length_ == 0.0 || h > kLongestGuess * known_length_) {
-    for (StageAxes& a : acceleration_) a = {start_forces_.ax, start_forces_.ay, start_forces_.alpha};
+    for (std::size_t i = 0; i < kStages; ++i) {
+      acceleration_[i] = {start_forces_.ax, start_forces_.ay, start_forces_.alpha};
+      for (std::size_t c = 0; c < contacts; ++c) acting_[i][c] = start_forces_.contact[c].normal_force;
+    }
     return;
   }
-  Stages power{};
-  for (std::size_t k = 0; k < kStages; ++k)
-    for (std::size_t j = 0; j < kStages; ++j)
-      for (std::size_t axis = 0; axis < 3; ++axis) power[k][axis] += table.acceleration_power[k][j] * known_[j][axis];
+  // what a value at the nodes counts at each of the new nodes: Lagrange's polynomials
+  Collocation::Matrix<double> weight;
   for (std::size_t i = 0; i < kStages; ++i) {
     const double t = (known_ago_ + table.node[i] * h) / known_length_;
-    StageAxes value = power[kStages - 1];
-    for (std::size_t k = kStages - 1; k-- > 0;)
-      for (std::size_t axis = 0; axis < 3; ++axis) value[axis] = value[axis] * t + power[k][axis];
-    acceleration_[i] = value;
+    for (std::size_t j = 0; j < kStages; ++j) {
+      weight[i][j] = table.acceleration_power[kStages - 1][j];
+      for (std::size_t k = kStages - 1; k-- > 0;) weight[i][j] = weight[i][j] * t + table.acceleration_power[k][j];
+    }
   }
+  for (std::size_t i = 0; i < kStages; ++i) {
+    acceleration_[i] = {};
+    acting_[i] = {};
+    for (std::size_t j = 0; j < kStages; ++j) {
+      for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[i][axis] += weight[i][j] * known_[j][axis];
+      for (std::size_t c = 0; c < contacts; ++c) acting_[i][c] += weight[i][j] * known_normal_[j][c];
+    }
+  }
+}
+
+/// The forces of the solution are those that the accelerations are made by: N of the states hangs on the last digits of
+/// their places.
+void StageEquations::tell_acting() {
+  for (std::size_t i = 0; i < kStages; ++i)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c) {
+      ContactForce& force = forces_[i].contact[c];
+      force.normal_force = acting_[i][c];
+      if ((*contacts_)[static_cast<std::size_t>(force.site)].slip != Slip::stick) force.tangential_force = force.friction_ratio * force.normal_force;
+    }
 }
 
 void StageEquations::keep_guess(double h) {
   known_ = acceleration_;
+  for (std::size_t i = 0; i < kStages; ++i)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c)
+      known_normal_[i][c] = forces_[i].contact[c].normal_force;
   known_length_ = h;
   known_ago_ = 0.0;
-}
-
-/// The matrix of Newton's method with the Jacobian of every stage where it is now.
-void StageEquations::linearise_stages(double h) {
-  ++factorizations_;
-  const Collocation& table = collocation();
-  Eigen::Matrix<double, kUnknowns, kUnknowns> matrix;
-  for (std::size_t i = 0; i < kStages; ++i) {
-    const ForceJacobian there = force_jacobian(system_, stage_[i], *contacts_, forces_[i]);
-    for (std::size_t j = 0; j < kStages; ++j)
-      matrix.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
-          -h * table.velocity[i][j] * there.by_velocity - h * h * table.position[i][j] * there.by_position;
-  }
-  matrix.diagonal().array() += 1.0;
-  coupled_.compute(matrix);
 }
 
 /// What rounding of the coordinates and velocities makes of the accelerations, times h: no residual is smaller. What is
@@ -201,16 +208,49 @@ double StageEquations::place_rounding(const Segment& segment) const {
   return kRounding * size_of_place(segment.x[0], segment.y[0]);
 }
 
-Stages StageEquations::coupled_correction(const Stages& residual) const {
-  Eigen::Matrix<double, kUnknowns, 1> rhs;
+/// Forces at the stages, and what these leave of f - a where the acting normal forces change by as much as those of the
+/// states are beyond them, in the directions of the start. Returns the largest.
+double StageEquations::evaluate_stages(Stages& residual, SolverCounts& counts) {
+  double largest = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    Forces& f = forces_[i];
+    evaluate_forces_under(acting_[i], system_, stage_[i], drive_[i], *contacts_, f);
+    residual[i] = {f.ax - acceleration_[i][0], f.ay - acceleration_[i][1], f.alpha - acceleration_[i][2]};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(f.count); ++c)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        residual[i][axis] += start_jacobian_.normal[c].push[static_cast<Eigen::Index>(axis)] *
+                             (f.contact[c].normal_force - acting_[i][c]);
+    const double size = size_of(residual[i]);
+    largest = std::max(largest, size);
+    sum += size;
+  }
+  counts.rhs_evaluations += kStages;
+  return std::isfinite(sum) ? largest : std::numeric_limits<double>::infinity();
+}
+
+/// Takes the residual out, and foresees the normal forces: from the corrections themselves, for the last digits of the
+/// places are forces on a stiff base. Returns the largest change of a velocity.
+double StageEquations::correct(const Stages& residual, double h) {
+  const Collocation& table = collocation();
+  const Stages correction = layer_.correction(residual, forces_, acting_);
   for (std::size_t i = 0; i < kStages; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) rhs[static_cast<Eigen::Index>(3 * i + axis)] = residual[i][axis];
-  const Eigen::Matrix<double, kUnknowns, 1> solution = coupled_.solve(rhs);
-  Stages correction;
-  for (std::size_t i = 0; i < kStages; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      correction[i][axis] = solution[static_cast<Eigen::Index>(3 * i + axis)];
-  return correction;
+    for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[i][axis] += correction[i][axis];
+  for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c) {
+    const NormalJacobian& normal = start_jacobian_.normal[c];
+    Collocation::Vector<double> by_position, by_velocity;
+    for (std::size_t j = 0; j < kStages; ++j) {
+      const Eigen::Vector3d change(correction[j][0], correction[j][1], correction[j][2]);
+      by_position[j] = h * h * normal.by_position.dot(change);
+      by_velocity[j] = h * normal.by_velocity.dot(change);
+    }
+    for (std::size_t i = 0; i < kStages; ++i) {
+      double change = 0.0;
+      for (std::size_t j = 0; j < kStages; ++j)
+        change += table.position[i][j] * by_position[j] + table.velocity[i][j] * by_velocity[j];
+      acting_[i][c] = forces_[i].contact[c].normal_force + change;
+    }
+  }
+  return place_stages(h);
 }
 
 bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
@@ -219,67 +259,31 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   modes_.set(h, start_jacobian_);
   layer_.set(modes_, h, start_jacobian_, start_forces_);
   set_rounding(h);
-  if (easily) return iterate(h, false, kEasyIterations, counts);
-  if (coupled_steps_ == 0) {
-    if (iterate(h, false, kMostIterations, counts)) {
-      if (++solved_by_modes_ >= kRarely) next_coupled_steps_ = kFewestCoupledSteps;
-      return true;
-    }
-    // in the tanh layer the step being too long is the likelier cause than the normal turning too far
-    if (in_layer() && ++failures_ == 1) return false;
-  }
-  if (!iterate(h, true, kMostIterations, counts)) return false;
-  if (coupled_steps_ == 0) {
-    coupled_steps_ = in_layer() ? kMostCoupledSteps : next_coupled_steps_;
-    next_coupled_steps_ = std::min(2 * next_coupled_steps_, kMostCoupledSteps);
-    solved_by_modes_ = 0;
-  }
-  return true;
-}
-
-/// Newton's iteration from a guess: with the modes, or with the Jacobians of every stage, taken anew when that is slow.
-/// False when it does not converge.
-bool StageEquations::iterate(double h, bool coupled, int most_iterations, SolverCounts& counts) {
   guess(h);
   place_stages(h);
   double before = std::numeric_limits<double>::infinity(), before_that = before;
-  bool renew = coupled;
+  const int most_iterations = easily ? kEasyIterations : kMostIterations;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Stages residual;
-    double left = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < kStages; ++i) {
-      evaluate(stage_[i], drive_[i], forces_[i], counts);
-      const Forces& f = forces_[i];
-      residual[i] = {f.ax - acceleration_[i][0], f.ay - acceleration_[i][1], f.alpha - acceleration_[i][2]};
-      const double size = size_of(residual[i]);
-      left = std::max(left, size);
-      sum += size;
-    }
-    if (!std::isfinite(sum)) return false;
+    const double left = evaluate_stages(residual, counts);
+    if (!std::isfinite(left)) return false;
     const double enough = allowed(h);
     if (h * left <= std::max(kSettled * enough, std::min(noise_, kConverged * enough))) {
       keep_guess(h);
       return true;
     }
-    if (renew) linearise_stages(h);
-    const Stages correction = coupled ? coupled_correction(residual) : layer_.correction(residual, forces_);
-    for (std::size_t i = 0; i < kStages; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[i][axis] += correction[i][axis];
-    const double change = place_stages(h);
-    // converged, or as far as rounding lets it
-    const double most = allowed(h);
-    const bool stagnates = iteration > 0 && change > 0.5 * before;
-    if (change <= kConverged * most || (stagnates && change <= most)) {
-      // the forces are those of the last states, or as near to them as rounding lets them be
-      if (h * left > noise_)
-        for (std::size_t i = 0; i < kStages; ++i) evaluate(stage_[i], drive_[i], forces_[i], counts);
+    const double change = correct(residual, h);
+    // converged, or as far as rounding lets it; and so that N of the states is the one that acts
+    const double most = allowed(h), rate = iteration > 0 ? change / before : 1.0;
+    const bool stagnates = iteration > 0 && rate > 0.5, foreseen = rate <= kFast && rate * change <= kForeseen * most;
+    const bool converged = change <= kConverged * most || foreseen || (stagnates && change <= most);
+    if (converged && std::min(rate, 1.0) * h * left <= std::max(kLeft * most, noise_)) {
+      evaluate_stages(residual, counts);
+      tell_acting();
       keep_guess(h);
       return true;
     }
-    // where the normal turns every other correction may be a small one
-    const bool stalls = stagnates && change > kSlow * before_that;
-    if (stalls && iteration >= kTrials && (renew || !coupled)) return false;
-    renew = coupled && change > kSlow * before;
+    if (stagnates && change > kPairs * before_that && iteration >= kTrials) return false;
     before_that = before;
     before = change;
   }

@@ -2,8 +2,6 @@
 // them (docs/implicit_steps.md).
 #pragma once
 
-#include <Eigen/LU>
-
 #include "solver/layer_coupling.h"
 #include "solver/motion_series.h"
 #include "solver/solver.h"
@@ -24,10 +22,6 @@ class StageEquations {
 
   /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations with the modes.
   bool solve(double h, SolverCounts& counts, bool easily = false);
-
-  /// Factorizations of the whole matrix of Newton's method until now: each takes as long as some 100 evaluations of
-  /// the forces.
-  long factorizations() const { return factorizations_; }
 
   /// The solution.
   const State& start() const { return start_; }
@@ -59,12 +53,12 @@ class StageEquations {
 
  private:
   void evaluate(const State& state, const Load3& drive, Forces& forces, SolverCounts& counts) const;
-  bool iterate(double h, bool coupled, int most_iterations, SolverCounts& counts);
+  double evaluate_stages(Stages& residual, SolverCounts& counts);
   void guess(double h);
+  void tell_acting();
   void keep_guess(double h);
-  void linearise_stages(double h);
-  Stages coupled_correction(const Stages& residual) const;
   double place_stages(double h);
+  double correct(const Stages& residual, double h);
   double speed_scale(double h) const;
   double speed_of_push(double push, double h) const;
   double size_of_place(double x, double y) const;
@@ -81,24 +75,19 @@ class StageEquations {
   ForceJacobian start_jacobian_;
   std::array<State, kStages> stage_;
   std::array<Load3, kStages> drive_;
-  std::array<Forces, kStages> forces_;
+  StageForces forces_;
   Stages acceleration_{};
+  StageNormals acting_{};                ///< N that act in an iteration: those of the states, foreseen
   double noise_ = 0.0, rounding_ = 0.0;  ///< of accelerations times h and of velocities in the present step
 
-  /// What a step is guessed from: accelerations at the nodes of a step of this length that began `ago` before `start_`.
+  /// What a step is guessed from: accelerations and normal forces at the nodes of a step of this length that began `ago`
+  /// before `start_`.
   Stages known_{};
+  StageNormals known_normal_{};
   double known_length_ = 0.0, known_ago_ = 0.0;
 
-  long factorizations_ = 0;
-  int coupled_steps_ = 0;       ///< steps to come with the Jacobian of every stage
-  int next_coupled_steps_ = 1;  ///< of these, where the modes fail next
-  int solved_by_modes_ = 0;     ///< steps since the modes have failed
-  int failures_ = 0;            ///< of the modes since `start_`
   StageModes modes_;
   LayerCoupling layer_;
-  /// The whole matrix of Newton's method, with the Jacobians of every stage.
-  static constexpr int kUnknowns = 3 * kStages;
-  Eigen::PartialPivLU<Eigen::Matrix<double, kUnknowns, kUnknowns>> coupled_;
 };
 
 }  // namespace vibratory_alignment
