@@ -342,6 +342,7 @@ TEST(Implicit, what_is_to_be_solved_easily_takes_six_iterations_at_most) {
 // The part slides off along a face that turns with it. With the N of each state in the residual every iteration would
 // leave h^2 k times that turn.
 TEST(Implicit, a_normal_that_turns_takes_as_many_iterations_on_any_base) {
+  constexpr double kStep = 0.01;
   for (const char* friction : {"friction=null", "friction={coefficient: 0.3, regularization: 0.2}"}) {
     for (const double stiffness : {1e4, 1e6, 1e8, 1e10}) {
       std::ostringstream base;
@@ -352,8 +353,15 @@ TEST(Implicit, a_normal_that_turns_takes_as_many_iterations_on_any_base) {
       contacts[0].slip = system.regularization > 0.0 ? Slip::regularized : Slip::none;
       SolverCounts counts;
       equations.begin(system.start, kNoDrives, contacts, false, counts);
-      EXPECT_TRUE(equations.solve(0.01, counts)) << stiffness;
+      EXPECT_TRUE(equations.solve(kStep, counts)) << stiffness;
       EXPECT_LE(counts.rhs_evaluations, 1 + 6 * 7) << stiffness << " " << friction;
+      // and the N of its places is that of its accelerations
+      for (std::size_t i = 0; i < StageEquations::kStages; ++i) {
+        Forces of_state;
+        evaluate_forces(system, equations.stage(i), equations.drive(i), contacts, of_state);
+        const double lag = of_state.contact[0].normal_force - equations.forces(i).contact[0].normal_force;
+        EXPECT_LT(kStep * std::abs(lag), equations.allowed(kStep)) << stiffness << " " << friction;
+      }
     }
   }
 }
