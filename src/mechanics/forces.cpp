@@ -25,8 +25,8 @@ inline void evaluate(const NormalForces* acting, const System& system, const Sta
     const ContactState& contact = contacts[i];
     if (contact.phase != Phase::loaded) continue;
     const auto index = static_cast<std::size_t>(forces.count);
-    const ContactKinematics k = contact_kinematics(
-        system, state, static_cast<Site>(i), contact.face, site_point(system, state, static_cast<Site>(i), c, s), c, s);
+    const ContactKinematics k = contact_kinematics(system, state, static_cast<Site>(i), contact.face,
+                                                   site_point(system, state, static_cast<Site>(i), c, s), c, s);
     ContactForce& force = forces.contact[index];
     force.site = static_cast<Site>(i);
     force.depth = k.depth;

@@ -16,8 +16,7 @@ struct Slope {
 
 Slope slope_at(const System& system, double normal_force, double friction_ratio) {
   const double f = system.friction;
-  return {friction_ratio,
-          -normal_force * (f - friction_ratio) * (f + friction_ratio) / (f * system.regularization)};
+  return {friction_ratio, -normal_force * (f - friction_ratio) * (f + friction_ratio) / (f * system.regularization)};
 }
 
 }  // namespace

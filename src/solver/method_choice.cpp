@@ -6,9 +6,9 @@
 namespace vibratory_alignment {
 namespace {
 
-/// A kind of contacts. Costs: of a step of the series, and of one evaluation of the forces in an implicit step; 1 is the
-/// time of a series step of one sliding contact. The base rings alike, so that the series go about as far, where `ring`
-/// is the same.
+/// A kind of contacts. Costs: of a step of the series, and of one evaluation of the forces in an implicit step; 1 is
+/// the time of a series step of one sliding contact. The base rings alike, so that the series go about as far, where
+/// `ring` is the same.
 struct Kind {
   double series, evaluation;
   int ring;
@@ -164,8 +164,8 @@ double MethodChoice::trial_length() const {
 }
 
 StepBounds MethodChoice::bounds(double longest) const {
-  const auto paid = std::clamp(static_cast<long>(credit_ / kKind[kind_].evaluation), kMostTrialEvaluations,
-                               kMostEvaluations);
+  const auto paid =
+      std::clamp(static_cast<long>(credit_ / kKind[kind_].evaluation), kMostTrialEvaluations, kMostEvaluations);
   const bool resumes = resumed_length_ > 0.0;
   switch (attempt_) {
     case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};

@@ -93,10 +93,10 @@ class MethodChoice {
   bool implicit_ = false;
   bool may_pass_over_ = true;
   Attempt attempt_ = Attempt::ordinary;
-  bool tried_ = false;      ///< a trial has been made
-  bool paid_ = false;       ///< an implicit step has gained
+  bool tried_ = false;           ///< a trial has been made
+  bool paid_ = false;            ///< an implicit step has gained
   double resumed_length_ = 0.0;  ///< of the trial, if it goes on where implicit steps have paid; 0: it does not
-  int wait_ = 0;  ///< series steps before that is tried again
+  int wait_ = 0;                 ///< series steps before that is tried again
   /// How far the last series steps went for a cost of 1; 0: none since a ring began or an implicit step was taken.
   double last_way_ = 0.0, way_before_ = 0.0;
   double credit_ = 0.0;     ///< what implicit steps may lose

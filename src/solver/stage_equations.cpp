@@ -23,8 +23,8 @@ constexpr double kConverged = 1e-2, kForeseen = 1e-3, kFast = 0.1;
 /// a correction may leave, as foreseen: what N of the state is beyond the N that the accelerations are made by.
 constexpr double kSettled = 1e-5, kLeft = 0.1;
 
-/// Corrections may come in pairs of about the same size: a later one that is not this much smaller than the one before the
-/// last does not get smaller.
+/// Corrections may come in pairs of about the same size: a later one that is not this much smaller than the one before
+/// the last does not get smaller.
 constexpr double kPairs = 0.1;
 
 /// Rounding of coordinates and velocities, relative to the size of the part and its speed.
@@ -100,7 +100,8 @@ void StageEquations::tell_acting() {
     for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c) {
       ContactForce& force = forces_[i].contact[c];
       force.normal_force = acting_[i][c];
-      if ((*contacts_)[static_cast<std::size_t>(force.site)].slip != Slip::stick) force.tangential_force = force.friction_ratio * force.normal_force;
+      if ((*contacts_)[static_cast<std::size_t>(force.site)].slip != Slip::stick)
+        force.tangential_force = force.friction_ratio * force.normal_force;
     }
 }
 

@@ -80,8 +80,8 @@ class StageEquations {
   StageNormals acting_{};                ///< N that act in an iteration: those of the states, foreseen
   double noise_ = 0.0, rounding_ = 0.0;  ///< of accelerations times h and of velocities in the present step
 
-  /// What a step is guessed from: accelerations and normal forces at the nodes of a step of this length that began `ago`
-  /// before `start_`.
+  /// What a step is guessed from: accelerations and normal forces at the nodes of a step of this length that began
+  /// `ago` before `start_`.
   Stages known_{};
   StageNormals known_normal_{};
   double known_length_ = 0.0, known_ago_ = 0.0;

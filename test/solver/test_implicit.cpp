@@ -115,7 +115,8 @@ TEST(Implicit, follows_every_rebound) {
   }
 }
 
-// The series take no part in implicit steps alone: in a bounce they follow the base themselves, to the same restitution.
+// The series take no part in implicit steps alone: in a bounce they follow the base themselves, to the same
+// restitution.
 TEST(Implicit, steps_alone_follow_every_rebound) {
   for (const double k : {1e6, 1e9, 1e12}) {
     Scene scene = test::hard_scene("stiff_bounce", {"trial.time_limit=50"});

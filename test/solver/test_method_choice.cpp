@@ -194,7 +194,7 @@ TEST(MethodChoice, costs_follow_the_laws_of_the_contacts) {
     double series, evaluation;
   };
   constexpr Slip plus = Slip::plus, minus = Slip::minus, stick = Slip::stick, layer = Slip::regularized;
-  const Kind kinds[] = {{{plus}, 1.0, 0.165},        {{plus, minus}, 2.2, 0.19},  {{stick}, 1.5, 0.23},
+  const Kind kinds[] = {{{plus}, 1.0, 0.165},        {{plus, minus}, 2.2, 0.19}, {{stick}, 1.5, 0.23},
                         {{stick, plus}, 4.5, 0.23},  {{stick, stick}, 5.2, 1.1}, {{layer}, 1.2, 0.33},
                         {{layer, minus}, 2.6, 0.35}, {{layer, layer}, 3.1, 0.55}};
   for (const Kind& kind : kinds) {
