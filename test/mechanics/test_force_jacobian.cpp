@@ -78,6 +78,44 @@ double error_of(const System& system, const State& state, const ContactStates& c
   return error / size;
 }
 
+/// Likewise of the normal forces: by the state, and of the accelerations by them.
+double error_of_normal_forces(const System& system, const State& state, const ContactStates& contacts) {
+  const Forces here = forces_at(system, state, contacts);
+  const ForceJacobian jacobian = force_jacobian(system, state, contacts, here);
+  constexpr double State::*kMembers[] = {&State::x, &State::y, &State::phi, &State::vx, &State::vy, &State::omega};
+  double error = 0.0, size = 0.0;
+  const auto hold_against = [&](double actual, double expected) {
+    error = std::max(error, std::abs(actual - expected));
+    size = std::max(size, std::abs(expected));
+  };
+  for (std::size_t c = 0; c < static_cast<std::size_t>(here.count); ++c) {
+    const NormalJacobian& normal = jacobian.normal[c];
+    for (int column = 0; column < 6; ++column) {
+      const auto at = [&](double step) {
+        State moved = state;
+        moved.*kMembers[column] += step;
+        return forces_at(system, moved, contacts).contact[c].normal_force;
+      };
+      const double h = 1e-3;
+      hold_against(column < 3 ? normal.by_position[column] : normal.by_velocity[column - 3],
+                   (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h));
+    }
+    // accelerations are linear in the normal forces that act
+    const auto under = [&](double more) {
+      NormalForces acting{};
+      for (std::size_t i = 0; i < static_cast<std::size_t>(here.count); ++i) acting[i] = here.contact[i].normal_force;
+      acting[c] += more;
+      Forces forces;
+      evaluate_forces_under(acting, system, state, {0.3, -0.2, 0.1}, contacts, forces);
+      return Eigen::Vector3d(forces.ax, forces.ay, forces.alpha);
+    };
+    const Eigen::Vector3d expected = under(1.0) - under(0.0);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) hold_against(normal.push[axis], expected[axis]);
+    EXPECT_LT((under(0.0) - Eigen::Vector3d(here.ax, here.ay, here.alpha)).norm(), 1e-12);
+  }
+  return error / size;
+}
+
 constexpr double kDifferenceError = 1e-8;
 
 TEST(ForceJacobian, is_the_derivative_of_the_accelerations_in_every_contact) {
@@ -102,6 +140,18 @@ TEST(ForceJacobian, holds_several_contacts_at_once) {
           states_of({{Site::a1, Face::bottom, Slip::stick}, {Site::b2, Face::left_wall, slip}});
       EXPECT_LT(error_of(system, random_state(random), contacts), kDifferenceError) << static_cast<int>(slip);
     }
+}
+
+TEST(ForceJacobian, tells_what_normal_forces_depend_on_and_what_they_push) {
+  const System system = anisotropic_system();
+  std::mt19937 random(4);
+  for (const Slip slip : {Slip::none, Slip::plus, Slip::minus, Slip::regularized, Slip::stick})
+    for (const Slip other : {Slip::stick, Slip::plus})
+      for (int i = 0; i < 10; ++i) {
+        const ContactStates contacts = states_of({{Site::a1, Face::bottom, slip}, {Site::b2, Face::left_wall, other}});
+        EXPECT_LT(error_of_normal_forces(system, random_state(random), contacts), kDifferenceError)
+            << static_cast<int>(slip) << " " << static_cast<int>(other);
+      }
 }
 
 TEST(ForceJacobian, a_locked_axis_changes_nothing) {
