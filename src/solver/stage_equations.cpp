@@ -45,11 +45,6 @@ Load3 drive_at(const DriveForms& drives, double t) {
 
 }  // namespace
 
-void StageEquations::evaluate(const State& state, const Load3& drive, Forces& forces, SolverCounts& counts) const {
-  evaluate_forces(system_, state, drive, *contacts_, forces);
-  ++counts.rhs_evaluations;
-}
-
 void StageEquations::begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
                            SolverCounts& counts) {
   known_ago_ = known_length_;
@@ -58,7 +53,8 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
   drives_ = &drives;
   contacts_ = &contacts;
   start_drive_ = drive_at(drives, 0.0);
-  evaluate(start, start_drive_, start_forces_, counts);
+  evaluate_forces(system_, start, start_drive_, contacts, start_forces_);
+  ++counts.rhs_evaluations;
   start_jacobian_ = force_jacobian(system_, start, contacts, start_forces_);
   forces_before_ = follows ? forces_[kStages - 1] : start_forces_;
 }

@@ -20,7 +20,7 @@ class StageEquations {
   void begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
              SolverCounts& counts);
 
-  /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations with the modes.
+  /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations.
   bool solve(double h, SolverCounts& counts, bool easily = false);
 
   /// The solution.
@@ -52,7 +52,6 @@ class StageEquations {
   double place_rounding(const Segment& segment) const;
 
  private:
-  void evaluate(const State& state, const Load3& drive, Forces& forces, SolverCounts& counts) const;
   double evaluate_stages(Stages& residual, SolverCounts& counts);
   void guess(double h);
   void tell_acting();
