@@ -21,6 +21,8 @@ struct DriveForm {
   double amplitude = 0.0, frequency = 0.0, rate = 0.0;
   double sin_phase = 0.0, cos_phase = 1.0;
 
+  double at_start() const { return constant + amplitude * sin_phase; }
+
   double at(double t) const {
     double value = constant + slope * t;
     if (amplitude != 0.0) {

@@ -6,11 +6,9 @@
 #include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
-namespace {
 
-/// `acting`: null for the normal forces of the state.
-inline void evaluate(const NormalForces* acting, const System& system, const State& state, const Load3& drive,
-                     const ContactStates& contacts, Forces& forces) {
+void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
+                     Forces& forces) {
   double fx = drive.x - system.x.damping * state.vx - system.x.stiffness * (state.x - system.x.anchor);
   double fy = drive.y - system.y.damping * state.vy - system.y.stiffness * (state.y - system.y.anchor) - system.weight;
   double moment = drive.phi - system.phi.damping * state.omega - system.phi.stiffness * (state.phi - system.phi.anchor);
@@ -49,9 +47,8 @@ inline void evaluate(const NormalForces* acting, const System& system, const Sta
     }
     force.friction_ratio = ratio;
     force.tangential_force = ratio * force.normal_force;
-    const double normal_force = acting ? (*acting)[index] : force.normal_force, tangential_force = ratio * normal_force;
-    const Vec2 total{normal_force * k.normal.x + tangential_force * k.tangent.x,
-                     normal_force * k.normal.y + tangential_force * k.tangent.y};
+    const Vec2 total{force.normal_force * k.normal.x + force.tangential_force * k.tangent.x,
+                     force.normal_force * k.normal.y + force.tangential_force * k.tangent.y};
     fx += total.x;
     fy += total.y;
     moment += cross(k.lever, total);
@@ -71,18 +68,6 @@ inline void evaluate(const NormalForces* acting, const System& system, const Sta
   forces.ax = held.x;
   forces.ay = held.y;
   forces.alpha = held.phi;
-}
-
-}  // namespace
-
-void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
-                     Forces& forces) {
-  evaluate(nullptr, system, state, drive, contacts, forces);
-}
-
-void evaluate_forces_under(const NormalForces& acting, const System& system, const State& state, const Load3& drive,
-                           const ContactStates& contacts, Forces& forces) {
-  evaluate(&acting, system, state, drive, contacts, forces);
 }
 
 }  // namespace vibratory_alignment

@@ -22,16 +22,8 @@ struct Forces {
   std::array<ContactForce, kSiteCount> contact;  ///< of the loaded sites, in their order
 };
 
-/// Normal forces of the loaded contacts, in their order.
-using NormalForces = std::array<double, kSiteCount>;
-
 /// `drive`: forces of the excitations at this instant. Sticking contacts get the T that keeps V' = 0.
 void evaluate_forces(const System& system, const State& state, const Load3& drive, const ContactStates& contacts,
                      Forces& forces);
-
-/// The same with the accelerations, and T of what sticks, that other normal forces than those of the state would cause,
-/// with the friction that goes with them. N and T of what slides are told as those of the state.
-void evaluate_forces_under(const NormalForces& acting, const System& system, const State& state, const Load3& drive,
-                           const ContactStates& contacts, Forces& forces);
 
 }  // namespace vibratory_alignment

@@ -29,7 +29,22 @@ constexpr int kPasses = 2;
 /// Rounding of V' relative to the sizes of its terms.
 constexpr double kSlipRateRounding = 1e-14;
 
+/// Of the axes, that of phi at the part's reach.
+std::array<double, 3> mobilities(const System& system) {
+  const double reach = system.half_width + system.base_distance;
+  return {system.x.inverse_inertia, system.y.inverse_inertia, reach * reach * system.phi.inverse_inertia};
+}
+
 }  // namespace
+
+SingleHold single_hold(const System& system) {
+  const std::array<double, 3> of_axes = mobilities(system);
+  const double most = std::max({of_axes[0], of_axes[1], of_axes[2]});
+  double least = most;
+  for (const double mobility : of_axes)
+    if (mobility * kMotionless > most) least = std::min(least, mobility);
+  return {most > kUnequal * least, kNoMobility * typical_mobility(system)};
+}
 
 /// J, rows of count_ contacts; columns from the most mobile axis to the least: as a row of (V M^-1/2)^T the first must
 /// not cost the digits of the others.
@@ -106,19 +121,17 @@ void HoldingForces::set(const System& system, const Rows& rows, int count) {
   inverse_inertia_ = {system.x.inverse_inertia, system.y.inverse_inertia, system.phi.inverse_inertia};
   if (count == 0) return;
   reach_ = system.half_width + system.base_distance;
-  const double weight[3] = {inverse_inertia_[0], inverse_inertia_[1], reach_ * reach_ * inverse_inertia_[2]};
-  const double most = *std::max_element(weight, weight + 3);
-  double least = most, largest = 0.0;
-  for (int a = 0; a < 3; ++a)
-    if (weight[a] * kMotionless > most) least = std::min(least, weight[a]);
+  double largest = 0.0;
   for (int i = 0; i < count; ++i) largest = std::max(largest, mobility(i));
-  holds_nothing_ = largest <= kNoMobility * typical_mobility(system);
-  delicate_ = most > kUnequal * least;
+  const SingleHold single = single_hold(system);
+  holds_nothing_ = largest <= single.least_mobility;
+  delicate_ = single.delicate;
   regular_ = !holds_nothing_;
   single_ = {mobility(0), inverse_inertia_[0] * rows[0].x, inverse_inertia_[1] * rows[0].y,
              inverse_inertia_[2] * rows[0].moment};
   if (count == 1 || holds_nothing_) return;
-  for (int a = 0; a < 3; ++a) scale_[a] = std::sqrt(weight[a]);
+  scale_ = mobilities(system);
+  for (double& scale : scale_) scale = std::sqrt(scale);
   Decomposition decomposed = decompose();
   safe_ = factorize(decomposed, kNearlySame);
   // where both are of the same rank, only the first is used

@@ -21,6 +21,17 @@ struct TangentRow {
   double x = 0.0, y = 0.0, moment = 0.0;
 };
 
+/// What a change leaves of the rate of an axis is rest where it is no more than this of what was taken out: a part that
+/// moves by rounding would have the time scale of rounding.
+constexpr double kRest = 1e-15;
+
+/// How a contact that sticks alone is held, whatever its row of J.
+struct SingleHold {
+  bool delicate;          ///< see HoldingForces::delicate()
+  double least_mobility;  ///< up to which G is rounding beside the mobility of the part, and nothing is held
+};
+SingleHold single_hold(const System& system);
+
 class HoldingForces {
  public:
   using Vector = std::array<double, kSiteCount>;
@@ -102,13 +113,11 @@ class HoldingForces {
     return {{force}, single_.x * force, single_.y * force, single_.phi * force};
   }
 
-  /// What a change leaves of a motion, in its place. Where all is held, that is rest: a part that moves by rounding
-  /// would have the time scale of rounding.
+  /// What a change leaves of a motion, in its place.
   static Answer left_of(const Answer& motion, Answer change) {
     const auto left = [](double rate, double changed) {
-      constexpr double kRounding = 1e-15;  // of what is left, relative to what was taken out
       const double sum = rate + changed;
-      return std::abs(sum) <= kRounding * std::abs(rate) ? 0.0 : sum;
+      return std::abs(sum) <= kRest * std::abs(rate) ? 0.0 : sum;
     };
     change.x = left(motion.x, change.x);
     change.y = left(motion.y, change.y);

@@ -34,7 +34,6 @@ class Waves {
 
  private:
   void evaluate(double t, Values& values) const;
-  void evaluate_wide(double t, Values& values) const;
 
   int oscillations_ = 0, decays_ = 0;
   double largest_half_rate_ = 0.0;

@@ -84,6 +84,42 @@ double slow_base_time(const System& system) {
                      most_mobility_of_mass(system));
 }
 
+/// Degree of the polynomials of the positions.
+constexpr int kDegree = Collocation::kStages + 1;
+
+/// The polynomial with these values at the start and at the nodes; `rates`: powers of 1/h.
+VIBRATORY_ALIGNMENT_INLINE void interpolate(double at_start, const Octet& at_nodes, const Octet& rates,
+                                            Series& series) {
+  const StageTable& table = stage_table();
+  Octet sum = table.value_power[0] * at_start;
+  for (std::size_t j = 0; j < StageTable::kStages; ++j) sum += table.value_power[j + 1] * at_nodes[j];
+  sum = sum * rates;
+  for (std::size_t k = 0; k < Octet::kSize; ++k) series[k] = sum[k];
+  series[kDegree] = 0.0;
+}
+
+/// Velocity and position from the polynomial through the accelerations at the nodes.
+VIBRATORY_ALIGNMENT_INLINE void integrate(double q0, double v0, const Octet& acceleration, const Octet& rates,
+                                          Series& q, Series& v) {
+  const Octet a = combine(stage_table().acceleration_power, acceleration) * rates;
+  q[0] = q0;
+  q[1] = v[0] = v0;
+  for (std::size_t k = 0; k < StageTable::kStages; ++k) {
+    const auto n = static_cast<double>(k + 1);
+    v[k + 1] = a[k] / n;
+    q[k + 2] = a[k] / (n * (n + 1.0));
+  }
+  v[kDegree] = 0.0;
+}
+
+/// A force at the start to interpolate from: the last one, or where the step does not follow it, and that is farther
+/// from the polynomial of the nodes than that can be from a smooth motion, the value of this polynomial.
+VIBRATORY_ALIGNMENT_INLINE double force_to_begin_with(double last, const Octet& at_nodes, bool follows) {
+  const double of_nodes = weighted_sum(stage_table().at_start, at_nodes);
+  const bool is_far = std::abs(last - of_nodes) > std::abs(weighted_sum(stage_table().last_power, at_nodes));
+  return !follows && is_far ? of_nodes : last;
+}
+
 }  // namespace
 
 ImplicitStep::ImplicitStep(const System& system, double tolerance)
@@ -104,12 +140,11 @@ void ImplicitStep::restart(bool base_rings) {
 
 /// What the polynomial of the accelerations misses at the start.
 StageAxes ImplicitStep::missed_at_start() const {
-  const Collocation& table = collocation();
+  const Octet& at_start = stage_table().at_start;
   const Forces& forces = equations_.start_forces();
-  StageAxes missed = {forces.ax, forces.ay, forces.alpha};
-  for (std::size_t j = 0; j < kStages; ++j)
-    for (std::size_t axis = 0; axis < 3; ++axis) missed[axis] -= table.at_start[j] * equations_.acceleration()[j][axis];
-  return missed;
+  const Stages& a = equations_.acceleration();
+  return {forces.ax - weighted_sum(at_start, a[0]), forces.ay - weighted_sum(at_start, a[1]),
+          forces.alpha - weighted_sum(at_start, a[2])};
 }
 
 /// Error of the velocities: what the polynomial of the accelerations misses at the start, without its stiff part. What
@@ -129,16 +164,11 @@ double ImplicitStep::error(double h) const {
 /// Speed that the polynomial of the velocities at the nodes misses at the start: the one of all motions that the step
 /// passes over, which are over at the nodes.
 double ImplicitStep::speed_missed_at_start() const {
-  const Collocation& table = collocation();
+  const Octet& at_start = stage_table().at_start;
   const State& start = equations_.start();
-  StageAxes missed = {start.vx, start.vy, start.omega};
-  for (std::size_t j = 0; j < kStages; ++j) {
-    const State& stage = equations_.stage(j);
-    missed[0] -= table.at_start[j] * stage.vx;
-    missed[1] -= table.at_start[j] * stage.vy;
-    missed[2] -= table.at_start[j] * stage.omega;
-  }
-  return equations_.size_of(missed);
+  const StateOctet& stages = equations_.stages();
+  return equations_.size_of({start.vx - weighted_sum(at_start, stages.vx), start.vy - weighted_sum(at_start, stages.vy),
+                             start.omega - weighted_sum(at_start, stages.omega)});
 }
 
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
@@ -259,79 +289,41 @@ bool ImplicitStep::retake(double h, Segment& segment, SolverCounts& counts) {
 
 /// The polynomials of the step as power series of the segment.
 void ImplicitStep::fill(double h, Segment& segment) const {
-  const Collocation& table = collocation();
-  constexpr int kDegree = kStages + 1;
   segment.order = kDegree;
-  const auto axis_series = [&](std::size_t axis, double q0, double v0, Series& q, Series& v) {
-    q[0] = q0;
-    q[1] = v[0] = v0;
-    double power = 1.0;
-    for (int k = 0; k < kStages; ++k, power /= h) {
-      double a = 0.0;
-      for (std::size_t j = 0; j < kStages; ++j)
-        a += table.acceleration_power[static_cast<std::size_t>(k)][j] * equations_.acceleration()[j][axis];
-      v[static_cast<std::size_t>(k + 1)] = a * power / (k + 1);
-      q[static_cast<std::size_t>(k + 2)] = a * power / ((k + 1) * (k + 2));
-    }
-    v[kDegree] = 0.0;
-  };
-  const State& start = equations_.start();
-  axis_series(0, start.x, start.vx, segment.x, segment.vx);
-  axis_series(1, start.y, start.vy, segment.y, segment.vy);
-  axis_series(2, start.phi, start.omega, segment.phi, segment.omega);
+  segment.loaded_count = equations_.start_forces().count;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    const double rate = 1.0 / h;
+    Octet rates = 1.0;  // powers of the rate
+    for (std::size_t k = 1; k < Octet::kSize; ++k) rates[k] = rates[k - 1] * rate;
+    const State& start = equations_.start();
+    const Stages& acceleration = equations_.acceleration();
+    integrate(start.x, start.vx, acceleration[0], rates, segment.x, segment.vx);
+    integrate(start.y, start.vy, acceleration[1], rates, segment.y, segment.vy);
+    integrate(start.phi, start.omega, acceleration[2], rates, segment.phi, segment.omega);
 
-  const Forces& start_forces = equations_.start_forces();
-  // polynomials through the values at the start and at the nodes
-  std::array<double, kStages + 1> values{};
-  const auto interpolate = [&](Series& series) {
-    double power = 1.0;
-    for (std::size_t k = 0; k <= kStages; ++k, power /= h) {
-      double sum = 0.0;
-      for (std::size_t j = 0; j <= kStages; ++j) sum += table.value_power[k][j] * values[j];
-      series[k] = sum * power;
+    // N and T on a stiff base depend on the last digits of the start: they go on from the step before. Just after a
+    // jump they may be what a long step does not follow
+    const Forces &start_forces = equations_.start_forces(), &before = equations_.forces_before();
+    for (std::size_t c = 0; c < static_cast<std::size_t>(segment.loaded_count); ++c) {
+      ContactSeries& contact = segment.loaded[c];
+      const ContactForceOctet& at_nodes = equations_.forces().contact[c];
+      const ContactForce &now = start_forces.contact[c], &last = before.contact[c];
+      contact.site = now.site;
+      interpolate(now.depth, at_nodes.depth, rates, contact.depth);
+      interpolate(force_to_begin_with(last.normal_force, at_nodes.normal_force, follows_), at_nodes.normal_force, rates,
+                  contact.normal_force);
+      interpolate(force_to_begin_with(last.tangential_force, at_nodes.tangential_force, follows_),
+                  at_nodes.tangential_force, rates, contact.tangential_force);
+      if (slip_of(segment, contact) == Slip::stick)
+        std::fill(contact.slip_velocity.begin(), contact.slip_velocity.begin() + kDegree + 1, 0.0);
+      else
+        interpolate(now.slip_velocity, at_nodes.slip_velocity, rates, contact.slip_velocity);
     }
-    series[kDegree] = 0.0;
-  };
-  const auto through = [&](Series& series, const auto& value_of) {
-    values[0] = value_of(start_forces);
-    for (std::size_t i = 0; i < kStages; ++i) values[i + 1] = value_of(equations_.forces(i));
-    interpolate(series);
-  };
-  // N and T on a stiff base depend on the last digits of the start: they go on from the step before. Just after a jump
-  // they may be what a long step does not follow, farther from the polynomial of the nodes than that can be from a
-  // smooth motion; then they go through the nodes alone
-  const Forces& before = equations_.forces_before();
-  const auto force_through = [&](Series& series, double ContactForce::*force, std::size_t c) {
-    values[0] = before.contact[c].*force;
-    for (std::size_t i = 0; i < kStages; ++i) values[i + 1] = equations_.forces(i).contact[c].*force;
-    double at_start = 0.0, last = 0.0;
-    for (std::size_t j = 0; j < kStages; ++j) {
-      at_start += table.at_start[j] * values[j + 1];
-      last += table.acceleration_power[kStages - 1][j] * values[j + 1];
-    }
-    if (!follows_ && std::abs(values[0] - at_start) > std::abs(last)) values[0] = at_start;
-    interpolate(series);
-  };
-  segment.loaded_count = start_forces.count;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces.count); ++c) {
-    ContactSeries& contact = segment.loaded[c];
-    contact.site = start_forces.contact[c].site;
-    through(contact.depth, [c](const Forces& f) { return f.contact[c].depth; });
-    force_through(contact.normal_force, &ContactForce::normal_force, c);
-    force_through(contact.tangential_force, &ContactForce::tangential_force, c);
-    if (slip_of(segment, contact) == Slip::stick)
-      std::fill(contact.slip_velocity.begin(), contact.slip_velocity.begin() + kDegree + 1, 0.0);
-    else
-      through(contact.slip_velocity, [c](const Forces& f) { return f.contact[c].slip_velocity; });
-  }
-  const auto drive_series = [&](double Load3::*axis, Series& series) {
-    values[0] = equations_.start_drive().*axis;
-    for (std::size_t i = 0; i < kStages; ++i) values[i + 1] = equations_.drive(i).*axis;
-    interpolate(series);
-  };
-  drive_series(&Load3::x, segment.drive_x);
-  drive_series(&Load3::y, segment.drive_y);
-  drive_series(&Load3::phi, segment.drive_phi);
+    const Load3& start_drive = equations_.start_drive();
+    interpolate(start_drive.x, equations_.drive().x, rates, segment.drive_x);
+    interpolate(start_drive.y, equations_.drive().y, rates, segment.drive_y);
+    interpolate(start_drive.phi, equations_.drive().phi, rates, segment.drive_phi);
+  });
 }
 
 }  // namespace vibratory_alignment

@@ -68,7 +68,7 @@ class ImplicitStep {
   void forget() { taken_ = false; }
 
   /// The state at the end of the last step.
-  const State& end() const { return equations_.end(); }
+  State end() const { return equations_.end(); }
 
  private:
   static constexpr int kStages = Collocation::kStages;

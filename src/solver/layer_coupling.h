@@ -3,13 +3,10 @@
 // (docs/implicit_steps.md).
 #pragma once
 
+#include "mechanics/octet_forces.h"
 #include "solver/stage_modes.h"
 
 namespace vibratory_alignment {
-
-/// Forces at the stages of a step, and normal forces there.
-using StageForces = Collocation::Vector<Forces>;
-using StageNormals = Collocation::Vector<NormalForces>;
 
 class LayerCoupling {
  public:
@@ -19,10 +16,18 @@ class LayerCoupling {
   void set(const StageModes& modes, double h, const ForceJacobian& jacobian, const Forces& start);
 
   /// The modes' correction where the stages have these forces, and `acting` are the normal forces that act.
-  Stages correction(const Stages& residual, const StageForces& forces, const StageNormals& acting) const;
+  VIBRATORY_ALIGNMENT_INLINE void correction(const Stages& residual, const ForcesOctet& forces,
+                                             const NormalForcesOctet& acting, Stages& correction) const {
+    modes_->correction(residual, correction);
+    if (jacobian_->layer_count > 0) correct_layer(residual, forces, acting, correction);
+  }
 
  private:
-  static constexpr int kMost = Collocation::kStages * kSiteCount;
+  [[gnu::noinline]] void correct_layer(const Stages& residual, const ForcesOctet& forces,
+                                       const NormalForcesOctet& acting, Stages& correction) const;
+  template <std::size_t kMost>
+  VIBRATORY_ALIGNMENT_INLINE void correct_layer_of(const Stages& residual, const ForcesOctet& forces,
+                                                   const NormalForcesOctet& acting, Stages& correction) const;
 
   const System& system_;
   const StageModes* modes_ = nullptr;
@@ -30,7 +35,7 @@ class LayerCoupling {
   const ForceJacobian* jacobian_ = nullptr;
   const Forces* start_ = nullptr;
   /// What pushes at layer contact [d] make of N and V at contact [c].
-  std::array<std::array<StageModes::StageMatrix, kSiteCount>, kSiteCount> normal_, slip_;
+  std::array<std::array<StageModes::Rows, kSiteCount>, kSiteCount> normal_, slip_;
 };
 
 }  // namespace vibratory_alignment

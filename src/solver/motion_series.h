@@ -144,7 +144,6 @@ class MotionSeries {
   void accelerate(int k, const Load& load, Segment& segment) const;
   enum class Law { slides, layer, sticks };  ///< of a single contact
   bool expand_single(Segment& segment);
-  bool expand_single_wide(Segment& segment);
   bool expand_any_single(Segment& segment);
   template <bool kEdge, bool kTurns, bool kVaries>
   bool expand_single_by_face(Segment& segment);

@@ -266,17 +266,10 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_any_single(Segment& segment
                            : expand_single_by_face<false, false, false>(segment);
 }
 
-#ifdef __x86_64__
-__attribute__((target("avx2"))) bool MotionSeries::expand_single_wide(Segment& segment) {
-  return expand_any_single(segment);
-}
-
 bool MotionSeries::expand_single(Segment& segment) {
-  static const bool wide = __builtin_cpu_supports("avx2") != 0;
-  return wide ? expand_single_wide(segment) : expand_any_single(segment);
+  bool expanded = false;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { expanded = expand_any_single(segment); });
+  return expanded;
 }
-#else
-bool MotionSeries::expand_single(Segment& segment) { return expand_any_single(segment); }
-#endif
 
 }  // namespace vibratory_alignment

@@ -33,12 +33,12 @@ constexpr double kRounding = 4e-16;
 /// A solution is continued over at most so many times its length.
 constexpr double kLongestGuess = 2.0;
 
-Load3 drive_at(const DriveForms& drives, double t) {
+Load3 drive_at_start(const DriveForms& drives) {
   Load3 load;
   for (int i = 0; i < drives.count; ++i) {
-    const double value = drives.form[static_cast<std::size_t>(i)].at(t);
+    const DriveForm& form = drives.form[static_cast<std::size_t>(i)];
     const Direction direction = drives.direction[static_cast<std::size_t>(i)];
-    (direction == Direction::x ? load.x : direction == Direction::y ? load.y : load.phi) += value;
+    (direction == Direction::x ? load.x : direction == Direction::y ? load.y : load.phi) += form.at_start();
   }
   return load;
 }
@@ -52,7 +52,7 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
   start_ = start;
   drives_ = &drives;
   contacts_ = &contacts;
-  start_drive_ = drive_at(drives, 0.0);
+  start_drive_ = drive_at_start(drives);
   evaluate_forces(system_, start, start_drive_, contacts, start_forces_);
   ++counts.rhs_evaluations;
   start_jacobian_ = force_jacobian(system_, start, contacts, start_forces_);
@@ -61,51 +61,41 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
 
 /// Accelerations and normal forces at the nodes to begin with: the polynomials of the solution at hand, continued.
 void StageEquations::guess(double h) {
-  const Collocation& table = collocation();
+  const StageTable& table = stage_table();
   const auto contacts = static_cast<std::size_t>(start_forces_.count);
   if (known_length_ == 0.0 || h > kLongestGuess * known_length_) {
-    for (std::size_t i = 0; i < kStages; ++i) {
-      acceleration_[i] = {start_forces_.ax, start_forces_.ay, start_forces_.alpha};
-      for (std::size_t c = 0; c < contacts; ++c) acting_[i][c] = start_forces_.contact[c].normal_force;
-    }
+    acceleration_ = {start_forces_.ax, start_forces_.ay, start_forces_.alpha};
+    for (std::size_t c = 0; c < contacts; ++c) acting_[c] = start_forces_.contact[c].normal_force;
     return;
   }
-  // what a value at the nodes counts at each of the new nodes: Lagrange's polynomials
-  Collocation::Matrix<double> weight;
-  for (std::size_t i = 0; i < kStages; ++i) {
-    const double t = (known_ago_ + table.node[i] * h) / known_length_;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    // what a value at the nodes counts at each of the new nodes: Lagrange's polynomials
+    const Octet t = (known_ago_ + table.node * h) / known_length_;
+    std::array<Octet, kStages> weight;
     for (std::size_t j = 0; j < kStages; ++j) {
-      weight[i][j] = table.acceleration_power[kStages - 1][j];
-      for (std::size_t k = kStages - 1; k-- > 0;) weight[i][j] = weight[i][j] * t + table.acceleration_power[k][j];
+      weight[j] = table.lagrange[kStages - 1][j];
+      for (std::size_t k = kStages - 1; k-- > 0;) weight[j] = weight[j] * t + table.lagrange[k][j];
     }
-  }
-  for (std::size_t i = 0; i < kStages; ++i) {
-    acceleration_[i] = {};
-    acting_[i] = {};
-    for (std::size_t j = 0; j < kStages; ++j) {
-      for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[i][axis] += weight[i][j] * known_[j][axis];
-      for (std::size_t c = 0; c < contacts; ++c) acting_[i][c] += weight[i][j] * known_normal_[j][c];
-    }
-  }
+    for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[axis] = combine(weight, known_[axis]);
+    for (std::size_t c = 0; c < contacts; ++c) acting_[c] = combine(weight, known_normal_[c]);
+  });
 }
 
 /// The forces of the solution are those that the accelerations are made by: N of the states hangs on the last digits of
 /// their places.
 void StageEquations::tell_acting() {
-  for (std::size_t i = 0; i < kStages; ++i)
-    for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c) {
-      ContactForce& force = forces_[i].contact[c];
-      force.normal_force = acting_[i][c];
-      if ((*contacts_)[static_cast<std::size_t>(force.site)].slip != Slip::stick)
-        force.tangential_force = force.friction_ratio * force.normal_force;
-    }
+  for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c) {
+    ContactForceOctet& force = forces_.contact[c];
+    force.normal_force = acting_[c];
+    if ((*contacts_)[static_cast<std::size_t>(forces_.site[c])].slip != Slip::stick)
+      force.tangential_force = force.friction_ratio * force.normal_force;
+  }
 }
 
 void StageEquations::keep_guess(double h) {
   known_ = acceleration_;
-  for (std::size_t i = 0; i < kStages; ++i)
-    for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c)
-      known_normal_[i][c] = forces_[i].contact[c].normal_force;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c)
+    known_normal_[c] = forces_.contact[c].normal_force;
   known_length_ = h;
   known_ago_ = 0.0;
 }
@@ -130,37 +120,35 @@ void StageEquations::set_rounding(double h) {
 
 /// States of the stages from their accelerations. Returns the largest change of a velocity.
 double StageEquations::place_stages(double h) {
-  const Collocation& table = collocation();
-  double largest = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < kStages; ++i) {
-    StageAxes dv{}, dq{};
-    for (std::size_t j = 0; j < kStages; ++j)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        dv[axis] += table.velocity[i][j] * acceleration_[j][axis];
-        dq[axis] += table.position[i][j] * acceleration_[j][axis];
-      }
-    const double t = table.node[i] * h;
-    const State before = stage_[i];
-    stage_[i] = {start_.x + t * start_.vx + h * h * dq[0],
-                 start_.y + t * start_.vy + h * h * dq[1],
-                 start_.phi + t * start_.omega + h * h * dq[2],
-                 start_.vx + h * dv[0],
-                 start_.vy + h * dv[1],
-                 start_.omega + h * dv[2]};
-    const double change = size_of({stage_[i].vx - before.vx, stage_[i].vy - before.vy, stage_[i].omega - before.omega});
-    largest = std::max(largest, change);
-    sum += change;
-  }
-  return std::isfinite(sum) ? largest : std::numeric_limits<double>::infinity();
+  const StageTable& table = stage_table();
+  double change = 0.0;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    const Octet t = table.node * h;
+    Stages before = {stages_.vx, stages_.vy, stages_.omega};
+    const auto place = [&](std::size_t axis, double q0, double v0, Octet& q, Octet& v)
+                           VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+                             q = q0 + t * v0 + h * h * combine(table.position, acceleration_[axis]);
+                             v = v0 + h * combine(table.velocity, acceleration_[axis]);
+                             before[axis] = v - before[axis];
+                           };
+    place(0, start_.x, start_.vx, stages_.x, stages_.vx);
+    place(1, start_.y, start_.vy, stages_.y, stages_.vy);
+    place(2, start_.phi, start_.omega, stages_.phi, stages_.omega);
+    const Octet changes = sizes_of(before);
+    change = all_finite(changes) ? largest(changes) : std::numeric_limits<double>::infinity();
+  });
+  return change;
 }
 
 /// Speed of the part during the step, and what the contact forces alone would make of it: the measure of errors.
 double StageEquations::speed_scale(double h) const {
-  const double reach = system_.half_width + system_.base_distance;
-  double most = std::abs(start_.vx) + std::abs(start_.vy) + reach * std::abs(start_.omega), push = 0.0;
-  for (const State& s : stage_) most = std::max(most, std::abs(s.vx) + std::abs(s.vy) + reach * std::abs(s.omega));
+  double push = 0.0;
   for (int i = 0; i < start_forces_.count; ++i) push += std::abs(start_forces_.contact[i].normal_force);
-  return most + speed_of_push(push, h);
+  double most = 0.0;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    most = largest(sizes_of({stages_.vx, stages_.vy, stages_.omega}));
+  });
+  return std::max(most, size_of({start_.vx, start_.vy, start_.omega})) + speed_of_push(push, h);
 }
 
 /// What a force makes of the part's speed in the time h.
@@ -193,6 +181,11 @@ double StageEquations::size_of(const StageAxes& acceleration) const {
   return std::abs(acceleration[0]) + std::abs(acceleration[1]) + reach * std::abs(acceleration[2]);
 }
 
+VIBRATORY_ALIGNMENT_INLINE Octet StageEquations::sizes_of(const Stages& acceleration) const {
+  const double reach = system_.half_width + system_.base_distance;
+  return abs(acceleration[0]) + abs(acceleration[1]) + reach * abs(acceleration[2]);
+}
+
 double StageEquations::allowed(double h) const { return std::max(tolerance_ * speed_scale(h), rounding_); }
 
 double StageEquations::allowed_from(const Segment& segment, double h) const {
@@ -208,51 +201,41 @@ double StageEquations::place_rounding(const Segment& segment) const {
 /// Forces at the stages, and what these leave of f - a where the acting normal forces change by as much as those of the
 /// states are beyond them, in the directions of the start. Returns the largest.
 double StageEquations::evaluate_stages(Stages& residual, SolverCounts& counts) {
-  double largest = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < kStages; ++i) {
-    Forces& f = forces_[i];
-    evaluate_forces_under(acting_[i], system_, stage_[i], drive_[i], *contacts_, f);
-    residual[i] = {f.ax - acceleration_[i][0], f.ay - acceleration_[i][1], f.alpha - acceleration_[i][2]};
-    for (std::size_t c = 0; c < static_cast<std::size_t>(f.count); ++c)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        residual[i][axis] += start_jacobian_.normal[c].push[static_cast<Eigen::Index>(axis)] *
-                             (f.contact[c].normal_force - acting_[i][c]);
-    const double size = size_of(residual[i]);
-    largest = std::max(largest, size);
-    sum += size;
-  }
+  evaluate_forces_under(acting_, system_, stages_, drive_, *contacts_, forces_);
   counts.rhs_evaluations += kStages;
-  return std::isfinite(sum) ? largest : std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { most = residual_under(residual); });
+  return most;
+}
+
+VIBRATORY_ALIGNMENT_INLINE double StageEquations::residual_under(Stages& residual) const {
+  residual = {forces_.ax - acceleration_[0], forces_.ay - acceleration_[1], forces_.alpha - acceleration_[2]};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(forces_.count); ++c) {
+    const Octet beyond = forces_.contact[c].normal_force - acting_[c];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      residual[axis] += start_jacobian_.normal[c].push[static_cast<Eigen::Index>(axis)] * beyond;
+  }
+  const Octet sizes = sizes_of(residual);
+  return all_finite(sizes) ? largest(sizes) : std::numeric_limits<double>::infinity();
 }
 
 /// Takes the residual out, and foresees the normal forces: from the corrections themselves, for the last digits of the
 /// places are forces on a stiff base. Returns the largest change of a velocity.
 double StageEquations::correct(const Stages& residual, double h) {
-  const Collocation& table = collocation();
-  const Stages correction = layer_.correction(residual, forces_, acting_);
-  for (std::size_t i = 0; i < kStages; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[i][axis] += correction[i][axis];
-  for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c) {
-    const NormalJacobian& normal = start_jacobian_.normal[c];
-    Collocation::Vector<double> by_position, by_velocity;
-    for (std::size_t j = 0; j < kStages; ++j) {
-      const Eigen::Vector3d change(correction[j][0], correction[j][1], correction[j][2]);
-      by_position[j] = h * h * normal.by_position.dot(change);
-      by_velocity[j] = h * normal.by_velocity.dot(change);
-    }
-    for (std::size_t i = 0; i < kStages; ++i) {
-      double change = 0.0;
-      for (std::size_t j = 0; j < kStages; ++j)
-        change += table.position[i][j] * by_position[j] + table.velocity[i][j] * by_velocity[j];
-      acting_[i][c] = forces_[i].contact[c].normal_force + change;
-    }
-  }
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    Stages correction;
+    layer_.correction(residual, forces_, acting_, correction);
+    for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[axis] += correction[axis];
+    for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c)
+      acting_[c] =
+          forces_.contact[c].normal_force +
+          change_at_stages(start_jacobian_.normal[c].by_position, start_jacobian_.normal[c].by_velocity, h, correction);
+  });
   return place_stages(h);
 }
 
 bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
-  const Collocation& table = collocation();
-  for (std::size_t i = 0; i < kStages; ++i) drive_[i] = drive_at(*drives_, table.node[i] * h);
+  evaluate_drives(drives_->form.data(), drives_->direction.data(), drives_->count, h * stage_table().node, drive_);
   modes_.set(h, start_jacobian_);
   layer_.set(modes_, h, start_jacobian_, start_forces_);
   set_rounding(h);
@@ -260,21 +243,22 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   place_stages(h);
   double before = std::numeric_limits<double>::infinity(), before_that = before;
   const int most_iterations = easily ? kEasyIterations : kMostIterations;
+  double enough = allowed(h);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Stages residual;
     const double left = evaluate_stages(residual, counts);
     if (!std::isfinite(left)) return false;
-    const double enough = allowed(h);
     if (h * left <= std::max(kSettled * enough, std::min(noise_, kConverged * enough))) {
       keep_guess(h);
       return true;
     }
     const double change = correct(residual, h);
     // converged, or as far as rounding lets it; and so that N of the states is the one that acts
-    const double most = allowed(h), rate = iteration > 0 ? change / before : 1.0;
-    const bool stagnates = iteration > 0 && rate > 0.5, foreseen = rate <= kFast && rate * change <= kForeseen * most;
-    const bool converged = change <= kConverged * most || foreseen || (stagnates && change <= most);
-    if (converged && std::min(rate, 1.0) * h * left <= std::max(kLeft * most, noise_)) {
+    enough = allowed(h);
+    const double rate = iteration > 0 ? change / before : 1.0;
+    const bool stagnates = iteration > 0 && rate > 0.5, foreseen = rate <= kFast && rate * change <= kForeseen * enough;
+    const bool converged = change <= kConverged * enough || foreseen || (stagnates && change <= enough);
+    if (converged && std::min(rate, 1.0) * h * left <= std::max(kLeft * enough, noise_)) {
       evaluate_stages(residual, counts);
       tell_acting();
       keep_guess(h);

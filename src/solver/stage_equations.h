@@ -29,11 +29,11 @@ class StageEquations {
   /// The forces at the end of the solution that the step follows, else those of the start.
   const Forces& forces_before() const { return forces_before_; }
   const Load3& start_drive() const { return start_drive_; }
-  const Load3& drive(std::size_t stage) const { return drive_[stage]; }
-  const Forces& forces(std::size_t stage) const { return forces_[stage]; }
+  const LoadOctet& drive() const { return drive_; }
+  const ForcesOctet& forces() const { return forces_; }
   const Stages& acceleration() const { return acceleration_; }
-  const State& stage(std::size_t stage) const { return stage_[stage]; }
-  const State& end() const { return stage_[kStages - 1]; }
+  const StateOctet& stages() const { return stages_; }
+  State end() const { return stages_[kStages - 1]; }
 
   /// Error of the velocities that the step may make.
   double allowed(double h) const;
@@ -53,6 +53,7 @@ class StageEquations {
 
  private:
   double evaluate_stages(Stages& residual, SolverCounts& counts);
+  double residual_under(Stages& residual) const;
   void guess(double h);
   void tell_acting();
   void keep_guess(double h);
@@ -62,6 +63,7 @@ class StageEquations {
   double speed_of_push(double push, double h) const;
   double size_of_place(double x, double y) const;
   void set_rounding(double h);
+  Octet sizes_of(const Stages& acceleration) const;
 
   const System& system_;
   double tolerance_;
@@ -72,17 +74,17 @@ class StageEquations {
   Load3 start_drive_;
   Forces start_forces_, forces_before_;
   ForceJacobian start_jacobian_;
-  std::array<State, kStages> stage_;
-  std::array<Load3, kStages> drive_;
-  StageForces forces_;
+  StateOctet stages_{};
+  LoadOctet drive_{};
+  ForcesOctet forces_;
   Stages acceleration_{};
-  StageNormals acting_{};                ///< N that act in an iteration: those of the states, foreseen
+  NormalForcesOctet acting_{};           ///< N that act in an iteration: those of the states, foreseen
   double noise_ = 0.0, rounding_ = 0.0;  ///< of accelerations times h and of velocities in the present step
 
   /// What a step is guessed from: accelerations and normal forces at the nodes of a step of this length that began
   /// `ago` before `start_`.
   Stages known_{};
-  StageNormals known_normal_{};
+  NormalForcesOctet known_normal_{};
   double known_length_ = 0.0, known_ago_ = 0.0;
 
   StageModes modes_;

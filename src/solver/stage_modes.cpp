@@ -1,76 +1,82 @@
 #include "solver/stage_modes.h"
 
-#include <Eigen/LU>
-
 namespace vibratory_alignment {
-namespace {
 
-constexpr std::size_t kStages = Collocation::kStages;
-
-/// A complex mode comes with its conjugate.
-double weight(std::size_t mode) { return mode == 0 ? 1.0 : 2.0; }
-
-}  // namespace
+VIBRATORY_ALIGNMENT_INLINE void StageModes::multiply(const Complex& a, const Complex& b, Complex& product) {
+  product.real = a.real * b.real - a.imaginary * b.imaginary;
+  product.imaginary = a.real * b.imaginary + a.imaginary * b.real;
+}
 
 void StageModes::set(double h, const ForceJacobian& jacobian) {
-  h_ = h;
-  const Collocation& table = collocation();
-  for (std::size_t m = 0; m < inverse_.size(); ++m) {
-    const std::complex<double> z = h * table.eigenvalue[m];
-    const Eigen::Matrix3cd matrix =
-        Eigen::Matrix3cd::Identity() - z * jacobian.by_velocity - z * z * jacobian.by_position;
-    inverse_[m] = matrix.inverse();
-  }
-  filter_ = inverse_[0].real();
+  const StageTable& table = stage_table();
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    z_.real = h * table.eigenvalue_real;
+    z_.imaginary = h * table.eigenvalue_imaginary;
+    multiply(z_, z_, z_squared_);
+    Complex matrix[3][3];
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double by_v = jacobian.by_velocity(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis));
+        const double by_q = jacobian.by_position(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis));
+        matrix[row][axis].real = (row == axis ? 1.0 : 0.0) - z_.real * by_v - z_squared_.real * by_q;
+        matrix[row][axis].imaginary = -z_.imaginary * by_v - z_squared_.imaginary * by_q;
+      }
+    // by the cofactors
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t r1 = (axis + 1) % 3, r2 = (axis + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
+        Complex a, b;
+        multiply(matrix[r1][c1], matrix[r2][c2], a);
+        multiply(matrix[r1][c2], matrix[r2][c1], b);
+        inverse_[row][axis] = {a.real - b.real, a.imaginary - b.imaginary};
+      }
+    Complex determinant{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Complex term;
+      multiply(matrix[0][axis], inverse_[axis][0], term);
+      determinant.real += term.real;
+      determinant.imaginary += term.imaginary;
+    }
+    const Quad size = determinant.real * determinant.real + determinant.imaginary * determinant.imaginary;
+    const Complex over{determinant.real / size, -determinant.imaginary / size};
+    for (auto& row : inverse_)
+      for (Complex& entry : row) {
+        const Complex cofactor = entry;
+        multiply(cofactor, over, entry);
+      }
+  });
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      filter_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis)) = inverse_[row][axis].real[0];
 }
 
-Stages StageModes::correction(const Stages& residual) const {
-  const Collocation& table = collocation();
-  Stages correction{};
-  for (std::size_t m = 0; m < inverse_.size(); ++m) {
-    StageAxes real{}, imaginary{};
-    for (std::size_t i = 0; i < kStages; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        real[axis] += table.dual[m][i].real() * residual[i][axis];
-        imaginary[axis] += table.dual[m][i].imag() * residual[i][axis];
-      }
+void StageModes::response(const Eigen::RowVector3d& by_position, const Eigen::RowVector3d& by_velocity,
+                          const Eigen::Vector3d& push, Rows& rows) const {
+  const StageTable& table = stage_table();
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    Complex gain{};
     for (std::size_t row = 0; row < 3; ++row) {
-      double solved_real = 0.0, solved_imaginary = 0.0;
+      const auto index = static_cast<Eigen::Index>(row);
+      Complex pushed{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::complex<double>& entry =
-            inverse_[m](static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis));
-        solved_real += entry.real() * real[axis] - entry.imag() * imaginary[axis];
-        solved_imaginary += entry.real() * imaginary[axis] + entry.imag() * real[axis];
+        pushed.real += inverse_[row][axis].real * push[static_cast<Eigen::Index>(axis)];
+        pushed.imaginary += inverse_[row][axis].imaginary * push[static_cast<Eigen::Index>(axis)];
       }
-      for (std::size_t i = 0; i < kStages; ++i)
-        correction[i][row] +=
-            weight(m) * (table.mode[m][i].real() * solved_real - table.mode[m][i].imag() * solved_imaginary);
+      const Complex weight{z_.real * by_velocity[index] + z_squared_.real * by_position[index],
+                           z_.imaginary * by_velocity[index] + z_squared_.imaginary * by_position[index]};
+      Complex term;
+      multiply(weight, pushed, term);
+      gain.real += term.real;
+      gain.imaginary += term.imaginary;
     }
-  }
-  return correction;
-}
-
-StageModes::StageMatrix StageModes::response(const Eigen::RowVector3d& by_position,
-                                             const Eigen::RowVector3d& by_velocity, const Eigen::Vector3d& push) const {
-  const Collocation& table = collocation();
-  StageMatrix response = StageMatrix::Zero();
-  for (std::size_t m = 0; m < inverse_.size(); ++m) {
-    const std::complex<double> z = h_ * table.eigenvalue[m];
-    std::complex<double> gain = 0.0;
-    for (Eigen::Index row = 0; row < 3; ++row) {
-      std::complex<double> pushed = 0.0;
-      for (Eigen::Index axis = 0; axis < 3; ++axis) pushed += inverse_[m](row, axis) * push[axis];
-      gain += (z * by_velocity[row] + z * z * by_position[row]) * pushed;
+    gain.real *= table.weight;
+    gain.imaginary *= table.weight;
+    for (std::size_t i = 0; i < StageTable::kStages; ++i) {
+      Complex at;
+      multiply(gain, {table.mode[i].low, table.mode[i].high}, at);
+      rows[i] = combine(table.dual, {at.real, at.imaginary});
     }
-    gain *= weight(m);
-    for (std::size_t i = 0; i < kStages; ++i) {
-      const std::complex<double> at = gain * table.mode[m][i];
-      for (std::size_t j = 0; j < kStages; ++j)
-        response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
-            at.real() * table.dual[m][j].real() - at.imag() * table.dual[m][j].imag();
-    }
-  }
-  return response;
+  });
 }
 
 }  // namespace vibratory_alignment

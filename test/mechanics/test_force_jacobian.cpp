@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../support/scenes.h"
+#include "mechanics/octet_forces.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -102,12 +103,13 @@ double error_of_normal_forces(const System& system, const State& state, const Co
     }
     // accelerations are linear in the normal forces that act
     const auto under = [&](double more) {
-      NormalForces acting{};
+      NormalForcesOctet acting{};
       for (std::size_t i = 0; i < static_cast<std::size_t>(here.count); ++i) acting[i] = here.contact[i].normal_force;
       acting[c] += more;
-      Forces forces;
-      evaluate_forces_under(acting, system, state, {0.3, -0.2, 0.1}, contacts, forces);
-      return Eigen::Vector3d(forces.ax, forces.ay, forces.alpha);
+      const StateOctet states{state.x, state.y, state.phi, state.vx, state.vy, state.omega};
+      ForcesOctet forces;
+      evaluate_forces_under(acting, system, states, {0.3, -0.2, 0.1}, contacts, forces);
+      return Eigen::Vector3d(forces.ax[0], forces.ay[0], forces.alpha[0]);
     };
     const Eigen::Vector3d expected = under(1.0) - under(0.0);
     for (Eigen::Index axis = 0; axis < 3; ++axis) hold_against(normal.push[axis], expected[axis]);

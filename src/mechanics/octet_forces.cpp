@@ -1,0 +1,239 @@
+#include "mechanics/octet_forces.h"
+
+#include <cmath>
+
+#include "mechanics/holding_forces.h"
+#include "mechanics/quad_functions.h"
+#include "mechanics/tilt.h"
+
+namespace vibratory_alignment {
+namespace {
+
+struct Vec2Octet {
+  Octet x, y;
+};
+
+VIBRATORY_ALIGNMENT_INLINE Octet cross(const Vec2Octet& a, const Vec2Octet& b) { return a.x * b.y - a.y * b.x; }
+
+/// tilt_of(): its series where all tilts are small.
+VIBRATORY_ALIGNMENT_INLINE void tilts_of(const Octet& phi, Octet& cos, Octet& sin) {
+  if (!(largest(abs(phi)) <= kSmallTilt)) {
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      const Tilt tilt = tilt_of(phi[i]);
+      cos[i] = tilt.cos;
+      sin[i] = tilt.sin;
+    }
+    return;
+  }
+  const Octet z = phi * phi;
+  const auto [even, odd] = small_tilt_series(z);
+  cos = 1.0 - (0.5 * z - even);
+  sin = phi - phi * odd;
+}
+
+/// k(n) or h(n) of a face, as stiffness_of() and damping_of().
+VIBRATORY_ALIGNMENT_INLINE Octet along_normal(Face face, const Octet& c, const Octet& s, double across, double along) {
+  switch (face) {
+    case Face::bottom: return along * c * c + across * s * s;
+    case Face::right_side:
+    case Face::left_side: return along * s * s + across * c * c;
+    case Face::right_wall:
+    case Face::left_wall: return across;
+    default: return along;
+  }
+}
+
+/// Where V' of sticking contacts comes from: rows of J, and what the velocities alone make of V'.
+struct Sticking {
+  std::size_t index;  ///< in ForcesOctet::contact
+  Vec2Octet tangent;
+  Octet moment, slip_rate;
+};
+
+/// T of what sticks takes out V'.
+void hold_sticking(const System& system, const std::array<Sticking, kSiteCount>& sticking, int count,
+                   ForcesOctet& forces) {
+  for (std::size_t i = 0; i < Octet::kSize; ++i) {
+    HoldingForces::Rows rows;
+    HoldingForces::Vector slip_rates;
+    for (std::size_t m = 0; m < static_cast<std::size_t>(count); ++m) {
+      rows[m] = {sticking[m].tangent.x[i], sticking[m].tangent.y[i], sticking[m].moment[i]};
+      slip_rates[m] = sticking[m].slip_rate[i];
+    }
+    HoldingForces holding;
+    holding.set(system, rows, count);
+    const HoldingForces::Answer held =
+        holding.hold_motion({{}, forces.ax[i], forces.ay[i], forces.alpha[i]}, slip_rates);
+    for (std::size_t m = 0; m < static_cast<std::size_t>(count); ++m)
+      forces.contact[sticking[m].index].tangential_force[i] = held.force[m];
+    forces.ax[i] = held.x;
+    forces.ay[i] = held.y;
+    forces.alpha[i] = held.phi;
+  }
+}
+
+/// The same as HoldingForces::hold_motion_of_one(), where that is not delicate.
+VIBRATORY_ALIGNMENT_INLINE void hold_single(const System& system, double least_mobility, const Sticking& sticking,
+                                            ForcesOctet& forces) {
+  const Vec2Octet& t = sticking.tangent;
+  const Octet of_x = system.x.inverse_inertia * t.x, of_y = system.y.inverse_inertia * t.y,
+              of_phi = system.phi.inverse_inertia * sticking.moment;
+  const Octet mobility = of_x * t.x + of_y * t.y + of_phi * sticking.moment;
+  const Octet rate = t.x * forces.ax + t.y * forces.ay + sticking.moment * forces.alpha;
+  const Octet force = zero_unless_above(mobility, least_mobility, (-rate - sticking.slip_rate) / mobility);
+  forces.contact[sticking.index].tangential_force = force;
+  const auto take_out = [&](const Octet& of_axis, Octet& acceleration) VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    const Octet left = acceleration + of_axis * force;
+    acceleration = zero_unless_above(abs(left), kRest * abs(acceleration), left);
+  };
+  take_out(of_x, forces.ax);
+  take_out(of_y, forces.ay);
+  take_out(of_phi, forces.alpha);
+}
+
+/// As contact_kinematics() and evaluate_forces(). Returns the number of sticking contacts.
+VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const System& system, const StateOctet& q,
+                                        const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces,
+                                        std::array<Sticking, kSiteCount>& sticking) {
+  Octet fx = drive.x - system.x.damping * q.vx - system.x.stiffness * (q.x - system.x.anchor);
+  Octet fy = drive.y - system.y.damping * q.vy - system.y.stiffness * (q.y - system.y.anchor) - system.weight;
+  Octet moment = drive.phi - system.phi.damping * q.omega - system.phi.stiffness * (q.phi - system.phi.anchor);
+  Octet c, s;
+  tilts_of(q.phi, c, s);
+  int sticking_count = 0;
+  forces.count = 0;
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const ContactState& contact = contacts[i];
+    if (contact.phase != Phase::loaded) continue;
+    const auto index = static_cast<std::size_t>(forces.count++);
+    const auto site = static_cast<Site>(i);
+    const ContactFrame frame = contact_frame(system, contact.face);
+    const bool part_face = is_part_face(contact.face);
+    Vec2Octet point, lever, n;
+    if (part_face) {
+      lever = {side_of(site) * system.slot_half_width - q.x, -q.y};
+      point = {lever.x * c + lever.y * s, lever.y * c - lever.x * s};
+      n = {frame.n1 * c - frame.n2 * s, frame.n1 * s + frame.n2 * c};
+    } else {
+      const double beta = side_of(site) * system.half_width, b = system.base_distance;
+      point = {q.x + beta * c + b * s, q.y + beta * s - b * c};
+      lever = {point.x - q.x, point.y - q.y};
+      n = {frame.n1, frame.n2};
+    }
+    const Vec2Octet t = {n.y, -n.x}, v = {q.vx - q.omega * lever.y, q.vy + q.omega * lever.x};
+    const Octet depth_rate = -(v.x * n.x + v.y * n.y), slip_velocity = v.x * t.x + v.y * t.y;
+
+    ContactForceOctet& force = forces.contact[index];
+    forces.site[index] = site;
+    force.depth = frame.sign * (frame.n1 * point.x + frame.n2 * point.y) + frame.offset;
+    force.slip_velocity = slip_velocity;
+    force.normal_force = along_normal(contact.face, c, s, system.stiffness_x, system.stiffness_y) * force.depth +
+                         along_normal(contact.face, c, s, system.damping_x, system.damping_y) * depth_rate;
+    Octet ratio = 0.0;
+    switch (contact.slip) {
+      case Slip::plus: ratio = -system.friction; break;
+      case Slip::minus: ratio = system.friction; break;
+      case Slip::regularized: {
+        const Octet share = slip_velocity / system.regularization;
+        Octet tanh;
+        tanh_of(share.low, tanh.low);
+        tanh_of(share.high, tanh.high);
+        ratio = -system.friction * tanh;
+        break;
+      }
+      case Slip::stick: {
+        Sticking& at = sticking[static_cast<std::size_t>(sticking_count++)];
+        at.index = index;
+        at.tangent = t;
+        at.moment = cross(lever, t);
+        if (part_face) {
+          const Vec2Octet t_rate = {-q.omega * t.y, q.omega * t.x};
+          at.slip_rate = q.vx * t_rate.x + q.vy * t_rate.y +
+                         q.omega * (-q.vx * t.y + q.vy * t.x + lever.x * t_rate.y - lever.y * t_rate.x);
+        } else {
+          at.slip_rate = q.omega * (-q.omega * lever.y * t.y - q.omega * lever.x * t.x);
+        }
+        break;
+      }
+      case Slip::none: break;
+    }
+    force.friction_ratio = ratio;
+    force.tangential_force = ratio * force.normal_force;
+    const Octet tangential_force = ratio * acting[index];
+    const Vec2Octet total = {acting[index] * n.x + tangential_force * t.x,
+                             acting[index] * n.y + tangential_force * t.y};
+    fx += total.x;
+    fy += total.y;
+    moment += cross(lever, total);
+  }
+  forces.ax = system.x.inverse_inertia * fx;
+  forces.ay = system.y.inverse_inertia * fy;
+  forces.alpha = system.phi.inverse_inertia * moment;
+  return sticking_count;
+}
+
+/// As DriveForm::at().
+VIBRATORY_ALIGNMENT_INLINE Octet drive_at(const DriveForm& form, const Octet& t) {
+  Octet value = form.constant + form.slope * t;
+  if (form.amplitude == 0.0) return value;
+  const Octet angle = (form.frequency + 0.5 * form.rate * t) * t;
+  Octet sin, cos;
+  if (largest(abs(angle)) <= kLargestAngle) {
+    sin_cos(angle.low, sin.low, cos.low);
+    sin_cos(angle.high, sin.high, cos.high);
+  } else {
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      sin[i] = std::sin(angle[i]);
+      cos[i] = std::cos(angle[i]);
+    }
+  }
+  return value + form.amplitude * (form.sin_phase * cos + form.cos_phase * sin);
+}
+
+}  // namespace
+
+Forces ForcesOctet::operator[](std::size_t i) const {
+  Forces one;
+  one.ax = ax[i];
+  one.ay = ay[i];
+  one.alpha = alpha[i];
+  one.count = count;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
+    const ContactForceOctet& force = contact[c];
+    one.contact[c] = {site[c],
+                      force.depth[i],
+                      force.normal_force[i],
+                      force.tangential_force[i],
+                      force.friction_ratio[i],
+                      force.slip_velocity[i]};
+  }
+  return one;
+}
+
+void evaluate_drives(const DriveForm* forms, const Direction* directions, int count, const Octet& times,
+                     LoadOctet& load) {
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    load = LoadOctet{};
+    for (int i = 0; i < count; ++i)
+      (directions[i] == Direction::x   ? load.x
+       : directions[i] == Direction::y ? load.y
+                                       : load.phi) += drive_at(forms[i], times);
+  });
+}
+
+void evaluate_forces_under(const NormalForcesOctet& acting, const System& system, const StateOctet& states,
+                           const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces) {
+  std::array<Sticking, kSiteCount> sticking;
+  int left_to_hold = 0;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    left_to_hold = evaluate(acting, system, states, drive, contacts, forces, sticking);
+    if (left_to_hold != 1) return;
+    const SingleHold single = single_hold(system);
+    if (single.delicate) return;
+    hold_single(system, single.least_mobility, sticking[0], forces);
+    left_to_hold = 0;
+  });
+  if (left_to_hold > 0) hold_sticking(system, sticking, left_to_hold, forces);
+}
+
+}  // namespace vibratory_alignment

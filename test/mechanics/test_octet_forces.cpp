@@ -1,0 +1,166 @@
+// The equations of motion at eight states at once against those at one: every contact, every law of friction, small and
+// large tilts; and under other normal forces than those of the states.
+#include "mechanics/octet_forces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "../support/scenes.h"
+
+namespace vibratory_alignment {
+namespace {
+
+struct Touch {
+  Site site;
+  Face face;
+  Slip slip;
+};
+
+System anisotropic_system() {
+  System system = make_system(test::scene_of(test::plain));
+  system.has_floor = true;
+  system.floor_depth = 0.41;
+  system.x.stiffness = 0.7;
+  system.x.damping = 0.3;
+  system.weight = 0.2;
+  system.friction = 0.4;
+  system.regularization = 0.5;
+  system.stiffness_x = 31.0;
+  system.stiffness_y = 17.0;
+  system.damping_x = 3.0;
+  system.damping_y = 5.0;
+  return system;
+}
+
+ContactStates states_of(const std::vector<Touch>& touches) {
+  ContactStates contacts{};
+  for (const Touch& touch : touches) {
+    ContactState& contact = contacts[static_cast<std::size_t>(touch.site)];
+    contact.phase = Phase::loaded;
+    contact.face = touch.face;
+    contact.slip = touch.slip;
+  }
+  return contacts;
+}
+
+std::vector<std::vector<Touch>> all_touches() {
+  std::vector<std::vector<Touch>> all;
+  for (const Slip slip : {Slip::none, Slip::plus, Slip::minus, Slip::stick, Slip::regularized}) {
+    for (const Face face : {Face::bottom, Face::right_side, Face::left_side}) all.push_back({{Site::a1, face, slip}});
+    for (const Face face : {Face::top, Face::left_wall}) all.push_back({{Site::b2, face, slip}});
+    all.push_back({{Site::b1, Face::right_wall, slip}, {Site::b1_floor, Face::floor, slip}});
+    all.push_back({{Site::a1, Face::bottom, Slip::plus}, {Site::b2, Face::top, slip}});
+  }
+  return all;
+}
+
+class OctetForces : public testing::TestWithParam<double> {  // largest tilt
+ protected:
+  StateOctet random_states() {
+    StateOctet states;
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      states.x[i] = 0.5 * u_(random_);
+      states.y[i] = 0.9 + 0.5 * u_(random_);
+      states.phi[i] = GetParam() * u_(random_);
+      states.vx[i] = u_(random_);
+      states.vy[i] = u_(random_);
+      states.omega[i] = 2.0 * u_(random_);
+    }
+    return states;
+  }
+
+  std::mt19937 random_{7};
+  std::uniform_real_distribution<double> u_{-1.0, 1.0};
+};
+
+constexpr double kRounding = 1e-13;
+
+TEST_P(OctetForces, are_those_of_every_state) {
+  const System system = anisotropic_system();
+  const LoadOctet drive{0.3, -0.2, 0.1};
+  for (const auto& touches : all_touches()) {
+    const ContactStates contacts = states_of(touches);
+    const StateOctet states = random_states();
+    std::array<Forces, Octet::kSize> expected;
+    NormalForcesOctet acting{};
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      evaluate_forces(system, states[i], {0.3, -0.2, 0.1}, contacts, expected[i]);
+      for (std::size_t c = 0; c < touches.size(); ++c) acting[c][i] = expected[i].contact[c].normal_force;
+    }
+    ForcesOctet forces;
+    evaluate_forces_under(acting, system, states, drive, contacts, forces);
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      const Forces got = forces[i];
+      const Forces& want = expected[i];
+      ASSERT_EQ(got.count, want.count);
+      const double size = kRounding * (std::abs(want.ax) + std::abs(want.ay) + std::abs(want.alpha) + 10.0);
+      EXPECT_NEAR(got.ax, want.ax, size);
+      EXPECT_NEAR(got.ay, want.ay, size);
+      EXPECT_NEAR(got.alpha, want.alpha, size);
+      for (std::size_t c = 0; c < touches.size(); ++c) {
+        EXPECT_EQ(got.contact[c].site, want.contact[c].site);
+        EXPECT_NEAR(got.contact[c].depth, want.contact[c].depth, kRounding);
+        EXPECT_NEAR(got.contact[c].normal_force, want.contact[c].normal_force, 100.0 * kRounding);
+        EXPECT_NEAR(got.contact[c].tangential_force, want.contact[c].tangential_force, 100.0 * size);
+        EXPECT_NEAR(got.contact[c].friction_ratio, want.contact[c].friction_ratio, kRounding);
+        EXPECT_NEAR(got.contact[c].slip_velocity, want.contact[c].slip_velocity, kRounding);
+      }
+    }
+  }
+}
+
+// On a base 1.7 times as stiff and damped these would be the forces of the states.
+TEST_P(OctetForces, other_normal_forces_push_with_their_friction) {
+  const System system = anisotropic_system();
+  System stiffer = system;
+  for (double* rate : {&stiffer.stiffness_x, &stiffer.stiffness_y, &stiffer.damping_x, &stiffer.damping_y})
+    *rate *= 1.7;
+  for (const auto& touches : all_touches()) {
+    const ContactStates contacts = states_of(touches);
+    const StateOctet states = random_states();
+    NormalForcesOctet acting{};
+    std::array<Forces, Octet::kSize> expected;
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      evaluate_forces(stiffer, states[i], {}, contacts, expected[i]);
+      for (std::size_t c = 0; c < touches.size(); ++c) acting[c][i] = expected[i].contact[c].normal_force;
+    }
+    ForcesOctet forces;
+    evaluate_forces_under(acting, system, states, {}, contacts, forces);
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      const Forces& want = expected[i];
+      const double size = kRounding * (std::abs(want.ax) + std::abs(want.ay) + std::abs(want.alpha) + 10.0);
+      EXPECT_NEAR(forces.ax[i], want.ax, size);
+      EXPECT_NEAR(forces.ay[i], want.ay, size);
+      EXPECT_NEAR(forces.alpha[i], want.alpha, size);
+      for (std::size_t c = 0; c < touches.size(); ++c)
+        EXPECT_NEAR(1.7 * forces.contact[c].normal_force[i], want.contact[c].normal_force, 100.0 * kRounding);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tilts, OctetForces, testing::Values(0.3, 2.0));
+
+TEST(OctetDrives, are_those_of_every_time) {
+  std::array<DriveForm, 4> forms;
+  forms[0] = {0.3, -0.2, 1.5, 20.0, 0.0, std::sin(0.4), std::cos(0.4)};
+  forms[1] = {0.0, 0.1, 0.7, 3.0, 50.0, std::sin(2.0), std::cos(2.0)};
+  forms[2] = {-0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  forms[3] = {0.0, 0.0, 2.0, 1e6, 0.0, std::sin(1.0), std::cos(1.0)};  // angles beyond those of the fast functions
+  const std::array<Direction, 4> directions = {Direction::y, Direction::x, Direction::phi, Direction::x};
+  for (const DriveForm& form : forms) EXPECT_EQ(form.at_start(), form.at(0.0));
+  Octet times;
+  for (std::size_t i = 0; i < Octet::kSize; ++i) times[i] = 0.13 * static_cast<double>(i);
+  LoadOctet load;
+  evaluate_drives(forms.data(), directions.data(), 4, times, load);
+  for (std::size_t i = 0; i < Octet::kSize; ++i) {
+    EXPECT_NEAR(load.y[i], forms[0].at(times[i]), 1e-14);
+    EXPECT_NEAR(load.x[i], forms[1].at(times[i]) + forms[3].at(times[i]), 1e-14);
+    EXPECT_NEAR(load.phi[i], forms[2].at(times[i]), 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace vibratory_alignment
