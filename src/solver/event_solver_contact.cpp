@@ -179,8 +179,9 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
       return step;
     }
     choice_.start_passing_over(step);
-  } else if (choice_.may_start(longest) && choice_.starts(length_over_ring(longest, drives), longest)) {
-    implicit_.suggest(choice_.trial_length());
+  } else if (choice_.may_start(longest)) {
+    const double length = length_over_ring(longest, drives);
+    if (choice_.starts(length, longest)) implicit_.suggest(std::min(length, choice_.trial_length()));
   } else if (choice_.asks_series()) {
     choice_.learn_pace(expand_contact(0.0, drives));
     counts_.rhs_evaluations += segment_.order;

@@ -15,7 +15,7 @@ struct Kind {
 
   /// Cost of an implicit step that takes this.
   constexpr double implicit(long evaluations) const {
-    constexpr double kStep = 0.6;
+    constexpr double kStep = 0.85;
     return kStep + evaluation * static_cast<double>(evaluations);
   }
   constexpr double usual_implicit() const { return implicit(36); }
@@ -26,27 +26,27 @@ struct Kind {
 /// do by a factorization. What sticking adds is softer than the base, the tanh layer is not; two that stick hold the
 /// part.
 constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;
-constexpr std::array<Kind, 9> kKind = {{{1.0, 0.165, 0},
-                                        {2.2, 0.19, 1},
-                                        {2.2, 0.19, 1},
-                                        {1.5, 0.23, 0},
-                                        {4.5, 0.23, 1},
-                                        {5.2, 1.1, 2},
-                                        {1.2, 0.33, 3},
-                                        {2.6, 0.35, 4},
-                                        {3.1, 0.55, 4}}};
+constexpr std::array<Kind, 9> kKind = {{{1.0, 0.053, 0},
+                                        {2.3, 0.065, 1},
+                                        {2.3, 0.065, 1},
+                                        {1.6, 0.075, 0},
+                                        {4.8, 0.14, 1},
+                                        {6.0, 1.2, 2},
+                                        {1.2, 0.098, 3},
+                                        {3.0, 0.11, 4},
+                                        {3.6, 0.17, 4}}};
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
-constexpr double kTrialShare = 0.12, kMostCredit = 300.0;
+constexpr double kTrialShare = 0.16, kMostCredit = 130.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step: any, and the first one in the tanh layer, unless the
 /// series have to go for so much on the way to the next kink.
-constexpr double kTrial = 0.8, kFirstTrialInLayer = 1.65, kLongWay = 200.0;
+constexpr double kTrial = 0.8, kFirstTrialInLayer = 1.2, kLongWay = 85.0;
 
-/// Length of a trial, as a multiple of the one that would pay, and the same that an implicit step is to have where it
-/// is taken again once the base rings no more.
-constexpr double kTrialGain = 2.0, kResumeGain = 1.5;
+/// Length of a trial at most, as a multiple of the one that would pay, and the same that an implicit step is to have
+/// where it is taken again once the base rings no more.
+constexpr double kTrialGain = 10.0, kResumeGain = 1.5;
 
 /// Series steps before that is tried again where it was given up; after each further time twice as many.
 constexpr int kWait = 4;
@@ -54,21 +54,21 @@ constexpr int kWait = 4;
 /// Series steps to come that grow as the last one did, and how many times as long they become at most.
 constexpr double kGrowingSteps = 4.0, kMostGrown = 4.0;
 
-/// Series steps in one contact before an implicit one is tried, and until their pace is known.
-constexpr int kTrialAfter = 32, kPaceKnown = 6;
+/// Series steps in one contact before an implicit one is tried; until their pace is known; and those whose mean it is.
+constexpr int kTrialAfter = 10, kPaceKnown = 6, kPaceSteps = 32;
 
 /// Evaluations of the forces after which an implicit step is given up: any, and a trial; in between, what there is
 /// credit for. The first trial outside the layer, which comes early, is given up sooner.
-constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 50, kMostEasyTrialEvaluations = 30;
+constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 80, kMostEasyTrialEvaluations = 30;
 
 /// Shortest trial, as a multiple of what the series go for a cost of 1.
-constexpr double kShortestTrial = 2.0;
+constexpr double kShortestTrial = 1.2;
 
-/// The same for a step that passes over a ring, where something sticks at the start and where nothing does. It is tried
-/// where the normal forces change by this share at most in a series step, and where the way to the next kink is worth
-/// it: so many series steps; fewer where next to nothing rings.
-constexpr double kShortestPassing = 8.0, kMostRing = 2e-2, kPassingWay = 120.0, kNoRing = 1e-9;
-constexpr long kMostPassingEvaluations = 100, kMostPassingSlidingEvaluations = 30;
+/// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
+/// series step, and where the way to the next kink is worth it: so many series steps; fewer where next to nothing
+/// rings.
+constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 25.0, kNoRing = 1e-9;
+constexpr long kMostPassingEvaluations = 100;
 
 /// Implicit steps before the series are first asked how far they would go, and most from one such question to the next
 /// (as many as before the last one).
@@ -77,10 +77,7 @@ constexpr int kFirstQuestion = 2, kMostUnasked = 32;
 /// How many times as far the series go by themselves as from the end of an implicit step, whose error makes the base
 /// ring; the share of a difference learned so that is believed; and the most that credit earned by the slower pace
 /// loses: where paces change all the time, it was earned by the pace of its time.
-constexpr double kUndisturbed = 1.25, kBelieved = 0.5, kMostForfeit = 10.0;
-
-/// A contact sticks and none is in the tanh layer.
-bool sticks(std::size_t kind) { return kind >= kStick && kind < kInLayer; }
+constexpr double kUndisturbed = 1.25, kBelieved = 0.5, kMostForfeit = 4.0;
 
 std::size_t kind_of(const ContactStates& contacts) {
   int loaded = 0, stick = 0, in_layer = 0;
@@ -171,9 +168,7 @@ StepBounds MethodChoice::bounds(double longest) const {
     case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};
     case Attempt::trial:
       return {longest, kShortestTrial * pace(), resumes ? paid : kMostTrialEvaluations, false, resumes};
-    case Attempt::passes_over:
-      return {longest, kShortestPassing * pace(),
-              sticks(kind_) ? kMostPassingEvaluations : kMostPassingSlidingEvaluations, !sticks(kind_), true};
+    case Attempt::passes_over: return {longest, kShortestPassing * pace(), kMostPassingEvaluations, false, true};
     case Attempt::ordinary: break;
   }
   return {longest, 0.0, paid};
@@ -205,7 +200,7 @@ void MethodChoice::settle_series(double gone, double longest) {
   way_before_ = last_way_;
   last_way_ = gone / kKind[kind_].series;
   Pace& pace = paces_[kind_];
-  pace.steps = std::min(pace.steps + 1, kTrialAfter);
+  pace.steps = std::min(pace.steps + 1, kPaceSteps);
   pace.way += (gone / kKind[kind_].series - pace.way) / pace.steps;
 }
 

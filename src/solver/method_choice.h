@@ -40,7 +40,7 @@ class MethodChoice {
   bool may_start(double longest) const;
 
   /// Asked when it may: one of this length passes over it; 0: none does. True when one is to be tried now: it is due
-  /// then, and begins with the length `trial_length`.
+  /// then, and begins with that length or `trial_length`, the shorter one.
   bool starts(double length_over_ring, double longest);
   double trial_length() const;
 

@@ -18,14 +18,19 @@ constexpr double kFar = 1e9;
 /// Length that passes over what rings, and gains nothing.
 constexpr double kQuiet = 1e-3;
 
-/// A usual implicit step of one sliding contact, and its cost: 0.6 + 0.165 an evaluation.
+/// A usual implicit step of one sliding contact, and its cost: 0.85, and 0.053 an evaluation.
 constexpr long kEffort = 36;
-constexpr double kUsual = 0.6 + 36 * 0.165;
-constexpr double kUsualStuck = 0.6 + 36 * 0.23;  ///< of one that sticks
+constexpr double kStep = 0.85, kEvaluation = 0.053;
+constexpr double kUsual = kStep + 36 * kEvaluation;
+constexpr double kUsualStuck = kStep + 36 * 0.075;  ///< of one that sticks
 
 /// What a series step adds to the credit for each 1 of its cost; the credit for a trial, and for the first one in the
 /// tanh layer.
-constexpr double kShare = 0.12, kTrial = 0.8, kFirstInLayer = 1.65;
+constexpr double kShare = 0.16, kTrial = 0.8, kFirstInLayer = 1.2;
+
+/// Series steps in one contact before an implicit one is tried, and the length of a trial over one that would pay.
+constexpr int kTrialAfter = 10;
+constexpr double kTrialGain = 10.0;
 
 ContactStates contacts_that(std::initializer_list<Slip> slips) {
   ContactStates contacts{};
@@ -70,12 +75,12 @@ void expect_first_from(double number, int steps) { EXPECT_NEAR(steps, number + 0
 /// A choice whose first trial has just paid 50, and its credit.
 MethodChoice rich() {
   MethodChoice choice;
-  expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));  // 44
+  expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));  // 14
   choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   EXPECT_TRUE(choice.implicit());
   return choice;
 }
-constexpr double kRich = 44 * kShare + 50.0;
+constexpr double kRich = 14 * kShare + 50.0;
 
 /// Implicit steps until they are given up, each of which goes as far as a series step of this pace and so loses kLoss.
 constexpr double kLoss = kUsual - 1.0;
@@ -110,13 +115,13 @@ TEST(MethodChoice, the_first_trial_has_to_be_earned_however_short_the_way) {
   }
 }
 
-// A series step costs 1.2; 200 of that cost go 166.7.
+// A series step costs 1.2; 85 of that cost go 70.8.
 TEST(MethodChoice, the_first_trial_in_the_tanh_layer_has_to_be_earned_twice_where_the_way_is_short) {
   const ContactStates layer = contacts_that({Slip::regularized});
   MethodChoice near, far;
-  const double usual = 0.6 + 36 * 0.33, earned = 1.2 * kShare;
-  expect_first_from(kFirstInLayer * usual / earned, steps_until_trial(near, layer, 166.0));
-  expect_first_from(kTrial * usual / earned, steps_until_trial(far, layer, 167.0));
+  const double usual = kStep + 36 * 0.098, earned = 1.2 * kShare;
+  expect_first_from(kFirstInLayer * usual / earned, steps_until_trial(near, layer, 70.0));
+  expect_first_from(kTrial * usual / earned, steps_until_trial(far, layer, 71.0));
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
@@ -124,7 +129,7 @@ TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
   const int earned = steps_until_trial(choice);
   choice.give_up_implicit(74);
   EXPECT_FALSE(choice.implicit());
-  const double debt = 0.6 + 74 * 0.165 - earned * kShare;
+  const double debt = kStep + 74 * kEvaluation - earned * kShare;
   EXPECT_GT(debt, 0.0);
   expect_first_from((kTrial * kUsual + debt) / kShare, steps_until_trial(choice));
 }
@@ -149,7 +154,7 @@ TEST(MethodChoice, implicit_steps_go_on_while_there_is_credit) {
 TEST(MethodChoice, gains_are_saved_up_to_a_bound) {
   MethodChoice choice = rich();
   for (int i = 0; i < 100; ++i) choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
-  expect_first_from(300.0 / kLoss, steps_until_dropped(choice));
+  expect_first_from(130.0 / kLoss, steps_until_dropped(choice));
 }
 
 TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
@@ -160,9 +165,9 @@ TEST(MethodChoice, a_step_cut_short_by_the_limit_may_gain_but_does_not_lose) {
   expect_first_from((kRich + 20.0) / kLoss, steps_until_dropped(winner));
 }
 
-TEST(MethodChoice, a_trial_has_twice_the_length_that_would_pay) {
+TEST(MethodChoice, a_trial_has_ten_times_the_length_that_would_pay_at_most) {
   MethodChoice choice = rich();
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);
 }
 
 TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
@@ -174,12 +179,12 @@ TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
     EXPECT_EQ(tried.bounds(kFar).easily, easily);
   };
   ASSERT_LT(steps_until_trial(choice), 100);
-  expect_trial(choice, 2.0, 30, true);
+  expect_trial(choice, 1.2, 30, true);
   choice.give_up_implicit(kEffort);
   ASSERT_LT(steps_until_trial(choice), 100);
-  expect_trial(choice, 2.0, 50, false);
+  expect_trial(choice, 1.2, 80, false);
   ASSERT_LT(steps_until_trial(in_layer, contacts_that({Slip::regularized})), 200);
-  expect_trial(in_layer, 2.0 / 1.2, 50, false);
+  expect_trial(in_layer, 1.2 / 1.2, 80, false);
   choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   ASSERT_TRUE(choice.implicit());
   EXPECT_EQ(choice.bounds(kFar).longest, kFar);
@@ -187,23 +192,23 @@ TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
   EXPECT_EQ(choice.bounds(kFar).evaluations, 130);
 }
 
-// A series step that costs s and goes 1 has the pace 1/s; a trial of a usual implicit step of cost c is 2 c/s long.
+// A series step that costs s and goes 1 has the pace 1/s; a trial of a usual implicit step of cost c is 10 c/s long.
 TEST(MethodChoice, costs_follow_the_laws_of_the_contacts) {
   struct Kind {
     std::initializer_list<Slip> slips;
     double series, evaluation;
   };
   constexpr Slip plus = Slip::plus, minus = Slip::minus, stick = Slip::stick, layer = Slip::regularized;
-  const Kind kinds[] = {{{plus}, 1.0, 0.165},        {{plus, minus}, 2.2, 0.19}, {{stick}, 1.5, 0.23},
-                        {{stick, plus}, 4.5, 0.23},  {{stick, stick}, 5.2, 1.1}, {{layer}, 1.2, 0.33},
-                        {{layer, minus}, 2.6, 0.35}, {{layer, layer}, 3.1, 0.55}};
+  const Kind kinds[] = {{{plus}, 1.0, 0.053},        {{plus, minus}, 2.3, 0.065}, {{stick}, 1.6, 0.075},
+                        {{stick, plus}, 4.8, 0.14},  {{stick, stick}, 6.0, 1.2},  {{layer}, 1.2, 0.098},
+                        {{layer, minus}, 3.0, 0.11}, {{layer, layer}, 3.6, 0.17}};
   for (const Kind& kind : kinds) {
     const ContactStates contacts = contacts_that(kind.slips);
     MethodChoice choice;
     for (int i = 0; i < 500 && !tries(choice, contacts); ++i) {
     }
-    EXPECT_NEAR(choice.trial_length(), 2.0 * (0.6 + 36 * kind.evaluation) / kind.series, 1e-12);
-    EXPECT_NEAR(cost_of(contacts, kind.series, 40), 0.6 + 40 * kind.evaluation, 1e-9);
+    EXPECT_NEAR(choice.trial_length(), kTrialGain * (kStep + 36 * kind.evaluation) / kind.series, 1e-12);
+    EXPECT_NEAR(cost_of(contacts, kind.series, 40), kStep + 40 * kind.evaluation, 1e-9);
   }
 }
 
@@ -211,10 +216,10 @@ TEST(MethodChoice, an_implicit_step_is_given_up_when_it_has_taken_the_credit) {
   MethodChoice choice = rich();
   double credit = kRich;
   for (; choice.implicit(); credit -= kLoss) {
-    EXPECT_EQ(choice.bounds(kFar).evaluations, std::clamp(static_cast<long>(credit / 0.165), 50L, 130L));
+    EXPECT_EQ(choice.bounds(kFar).evaluations, std::clamp(static_cast<long>(credit / kEvaluation), 80L, 130L));
     choice.settle_implicit(1.0, kFar, kEffort);
   }
-  EXPECT_LT(credit / 0.165, 50.0);  // all three have been seen
+  EXPECT_LT(credit / kEvaluation, 80.0);  // all three have been seen
 }
 
 TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace) {
@@ -222,7 +227,7 @@ TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace
   for (int i = 0; i < 40; ++i) tries(choice);
   choice.earn();
   choice.settle_series(0.1, 0.1);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);
 }
 
 TEST(MethodChoice, nothing_is_tried_where_the_series_have_gone_nowhere) {
@@ -248,7 +253,7 @@ TEST(MethodChoice, a_ring_is_left_to_the_series_at_once) {
   MethodChoice choice = rich();
   choice.ring();
   EXPECT_FALSE(choice.implicit());
-  EXPECT_EQ(steps_until_trial(choice), 32);
+  EXPECT_EQ(steps_until_trial(choice), kTrialAfter);
 }
 
 // One that has paid goes on after a single series step, if it is to be 1.5 times as long as would pay; the series would
@@ -266,7 +271,7 @@ TEST(MethodChoice, implicit_steps_that_have_paid_go_on_as_soon_as_the_ring_is_pa
   EXPECT_TRUE(choice.implicit());
   EXPECT_DOUBLE_EQ(choice.trial_length(), 1.01 * kPays);
   EXPECT_TRUE(choice.bounds(kFar).passes_over);
-  EXPECT_EQ(choice.bounds(kFar).evaluations, 130);  // what the credit pays, not a trial's 50
+  EXPECT_EQ(choice.bounds(kFar).evaluations, 130);  // what the credit pays, not a trial's 80
 }
 
 // Steps that grow from 1 to r go on to r^4 r, at most to 4 r.
@@ -291,7 +296,7 @@ TEST(MethodChoice, what_is_given_up_after_a_ring_is_tried_again_less_and_less_of
   };
   choice.ring();
   EXPECT_EQ(steps_until_resumed(), 1);
-  for (const int steps : {4, 8, 16}) {
+  for (const int steps : {4, 8, kTrialAfter}) {
     choice.give_up_implicit(kEffort);
     EXPECT_EQ(steps_until_resumed(), steps);
   }
@@ -307,7 +312,7 @@ TEST(MethodChoice, implicit_steps_that_have_not_paid_have_to_wait) {
   choice.ring();
   int steps = 0;
   for (; steps < 1000 && !starts(choice, kFar); ++steps) go_by_series(choice);
-  EXPECT_EQ(steps, 32);
+  EXPECT_EQ(steps, kTrialAfter);
 }
 
 TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
@@ -322,38 +327,38 @@ TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
   EXPECT_EQ(asked, (std::vector<int>{2, 4, 8, 16, 32, 64, 96, 128, 160, 192}));
 }
 
-// They would go 1.25 x 8 = 10, of which half is believed: 1 + (10 - 1)/2. The credit shrinks by as much, by 10 at most.
+// They would go 1.25 x 8 = 10, of which half is believed: 1 + (10 - 1)/2. The credit shrinks by as much, by 4 at most.
 TEST(MethodChoice, a_faster_pace_of_the_series_is_learned_and_costs_credit) {
   MethodChoice faster = rich(), little_faster = rich();
   faster.learn_pace(8.0);
-  EXPECT_DOUBLE_EQ(faster.trial_length(), 5.5 * 2.0 * kUsual);
-  expect_first_from((kRich - 10.0) / kLoss, steps_until_dropped(faster, 5.5));
-  little_faster.learn_pace(1.0);
-  EXPECT_DOUBLE_EQ(little_faster.trial_length(), 1.125 * 2.0 * kUsual);
-  expect_first_from(kRich / 1.125 / kLoss, steps_until_dropped(little_faster, 1.125));
+  EXPECT_DOUBLE_EQ(faster.trial_length(), 5.5 * kTrialGain * kUsual);
+  expect_first_from((kRich - 4.0) / kLoss, steps_until_dropped(faster, 5.5));
+  little_faster.learn_pace(0.88);
+  EXPECT_DOUBLE_EQ(little_faster.trial_length(), 1.05 * kTrialGain * kUsual);
+  expect_first_from(kRich / 1.05 / kLoss, steps_until_dropped(little_faster, 1.05));
 }
 
 TEST(MethodChoice, a_slower_pace_is_only_learned_from_steps_of_the_series) {
   MethodChoice choice = rich();
   choice.learn_pace(0.7);  // x 1.25 < 1
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);
   expect_first_from(kRich / kLoss, steps_until_dropped(choice));
 }
 
 TEST(MethodChoice, what_is_learned_of_one_law_is_of_that_law) {
   MethodChoice choice = rich();
   choice.look_at(contacts_that({Slip::stick}));
-  choice.learn_pace(12.0);  // 1.25 x 12/1.5 = 10
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * 2.0 * kUsualStuck);
+  choice.learn_pace(12.8);  // 1.25 x 12.8/1.6 = 10
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 5.5 * kTrialGain * kUsualStuck);
   choice.look_at(kSliding);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);
 }
 
 TEST(MethodChoice, every_contact_has_to_last_before_a_trial) {
   MethodChoice choice = rich();
   choice.leave_contact();
   EXPECT_FALSE(choice.implicit());
-  EXPECT_EQ(steps_until_trial(choice), 32);
+  EXPECT_EQ(steps_until_trial(choice), kTrialAfter);
 }
 
 TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
@@ -362,8 +367,8 @@ TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
   choice.look_at(kSliding);
   int steps = 0;
   for (; steps < 1000 && !starts(choice, kQuiet); ++steps) go_by_series(choice, 2.0);
-  EXPECT_EQ(steps, 32);
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * 2.0 * kUsual);
+  EXPECT_EQ(steps, kTrialAfter);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kTrialGain * kUsual);
 }
 
 TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
@@ -374,14 +379,14 @@ TEST(MethodChoice, another_number_of_contacts_has_a_pace_of_its_own) {
   EXPECT_EQ(steps_until_trial(choice, two), 6);
   choice.look_at(kSliding);  // whose pace is still known
   EXPECT_TRUE(choice.implicit());
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsual);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);
 }
 
 TEST(MethodChoice, a_contact_that_begins_to_stick_goes_on_at_the_pace_of_the_one_that_slid) {
   MethodChoice choice = rich();
   choice.look_at(contacts_that({Slip::stick}));
   EXPECT_TRUE(choice.implicit());
-  EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kUsualStuck);
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsualStuck);
 }
 
 TEST(MethodChoice, the_tanh_layer_is_stiffer_than_what_slides) {
@@ -424,11 +429,11 @@ TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_where_it_is_small_and_the_way_is_long) {
-  EXPECT_TRUE(fresh().passing_over_pays(1.0, 121.0, 1.9e-2));
-  EXPECT_FALSE(fresh().passing_over_pays(1.0, 121.0, 2.1e-2));
-  EXPECT_FALSE(fresh().passing_over_pays(1.0, 119.0, 1.9e-2));
-  EXPECT_TRUE(fresh().passing_over_pays(1.0, 9.0, 1e-10));
-  EXPECT_FALSE(fresh().passing_over_pays(1.0, 7.0, 1e-10));
+  EXPECT_TRUE(fresh().passing_over_pays(1.0, 26.0, 5.9e-2));
+  EXPECT_FALSE(fresh().passing_over_pays(1.0, 26.0, 6.1e-2));
+  EXPECT_FALSE(fresh().passing_over_pays(1.0, 24.0, 5.9e-2));
+  EXPECT_TRUE(fresh().passing_over_pays(1.0, 3.1, 1e-10));
+  EXPECT_FALSE(fresh().passing_over_pays(1.0, 2.9, 1e-10));
   EXPECT_FALSE(fresh().passing_over_pays(0.0, kFar, 1e-10));
 }
 
@@ -442,23 +447,12 @@ TEST(MethodChoice, in_the_tanh_layer_only_what_hardly_rings_is_passed_over) {
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_by_a_long_step_or_soon_given_up) {
-  EXPECT_DOUBLE_EQ(passing().bounds(501.0).shortest, 8.0);
-  const std::pair<ContactStates, long> most_evaluations[] = {{contacts_that({Slip::plus}), 30},
-                                                             {contacts_that({Slip::plus, Slip::minus}), 30},
-                                                             {contacts_that({Slip::stick}), 100},
-                                                             {contacts_that({Slip::stick, Slip::plus}), 100},
-                                                             {contacts_that({Slip::stick, Slip::stick}), 100},
-                                                             {contacts_that({Slip::regularized}), 30},
-                                                             {contacts_that({Slip::regularized, Slip::stick}), 30}};
-  for (const auto& [contacts, evaluations] : most_evaluations) {
-    MethodChoice choice;
-    choice.look_at(contacts);
-    choice.start_passing_over(6.0);
-    EXPECT_TRUE(choice.implicit());
-    EXPECT_EQ(choice.bounds(3001.0).longest, 3001.0);
-    EXPECT_EQ(choice.bounds(3001.0).evaluations, evaluations);
-    EXPECT_EQ(choice.bounds(3001.0).easily, evaluations == 30);
-  }
+  const StepBounds bounds = passing().bounds(501.0);
+  EXPECT_EQ(bounds.longest, 501.0);
+  EXPECT_DOUBLE_EQ(bounds.shortest, 3.0);
+  EXPECT_EQ(bounds.evaluations, 100);
+  EXPECT_TRUE(bounds.passes_over);
+  EXPECT_FALSE(bounds.easily);
 }
 
 TEST(MethodChoice, other_implicit_steps_take_the_trouble) {
