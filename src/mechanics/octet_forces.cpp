@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mechanics/holding_forces.h"
+#include "mechanics/octet_holding.h"
 #include "mechanics/quad_functions.h"
 #include "mechanics/tilt.h"
 
@@ -14,6 +14,8 @@ struct Vec2Octet {
 };
 
 VIBRATORY_ALIGNMENT_INLINE Octet cross(const Vec2Octet& a, const Vec2Octet& b) { return a.x * b.y - a.y * b.x; }
+
+using StickingContacts = std::array<StickingOctet, kSiteCount>;
 
 /// tilt_of(): its series where all tilts are small.
 VIBRATORY_ALIGNMENT_INLINE void tilts_of(const Octet& phi, Octet& cos, Octet& sin) {
@@ -43,58 +45,10 @@ VIBRATORY_ALIGNMENT_INLINE Octet along_normal(Face face, const Octet& c, const O
   }
 }
 
-/// Where V' of sticking contacts comes from: rows of J, and what the velocities alone make of V'.
-struct Sticking {
-  std::size_t index;  ///< in ForcesOctet::contact
-  Vec2Octet tangent;
-  Octet moment, slip_rate;
-};
-
-/// T of what sticks takes out V'.
-void hold_sticking(const System& system, const std::array<Sticking, kSiteCount>& sticking, int count,
-                   ForcesOctet& forces) {
-  for (std::size_t i = 0; i < Octet::kSize; ++i) {
-    HoldingForces::Rows rows;
-    HoldingForces::Vector slip_rates;
-    for (std::size_t m = 0; m < static_cast<std::size_t>(count); ++m) {
-      rows[m] = {sticking[m].tangent.x[i], sticking[m].tangent.y[i], sticking[m].moment[i]};
-      slip_rates[m] = sticking[m].slip_rate[i];
-    }
-    HoldingForces holding;
-    holding.set(system, rows, count);
-    const HoldingForces::Answer held =
-        holding.hold_motion({{}, forces.ax[i], forces.ay[i], forces.alpha[i]}, slip_rates);
-    for (std::size_t m = 0; m < static_cast<std::size_t>(count); ++m)
-      forces.contact[sticking[m].index].tangential_force[i] = held.force[m];
-    forces.ax[i] = held.x;
-    forces.ay[i] = held.y;
-    forces.alpha[i] = held.phi;
-  }
-}
-
-/// The same as HoldingForces::hold_motion_of_one(), where that is not delicate.
-VIBRATORY_ALIGNMENT_INLINE void hold_single(const System& system, double least_mobility, const Sticking& sticking,
-                                            ForcesOctet& forces) {
-  const Vec2Octet& t = sticking.tangent;
-  const Octet of_x = system.x.inverse_inertia * t.x, of_y = system.y.inverse_inertia * t.y,
-              of_phi = system.phi.inverse_inertia * sticking.moment;
-  const Octet mobility = of_x * t.x + of_y * t.y + of_phi * sticking.moment;
-  const Octet rate = t.x * forces.ax + t.y * forces.ay + sticking.moment * forces.alpha;
-  const Octet force = zero_unless_above(mobility, least_mobility, (-rate - sticking.slip_rate) / mobility);
-  forces.contact[sticking.index].tangential_force = force;
-  const auto take_out = [&](const Octet& of_axis, Octet& acceleration) VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    const Octet left = acceleration + of_axis * force;
-    acceleration = zero_unless_above(abs(left), kRest * abs(acceleration), left);
-  };
-  take_out(of_x, forces.ax);
-  take_out(of_y, forces.ay);
-  take_out(of_phi, forces.alpha);
-}
-
 /// As contact_kinematics() and evaluate_forces(). Returns the number of sticking contacts.
 VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const System& system, const StateOctet& q,
                                         const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces,
-                                        std::array<Sticking, kSiteCount>& sticking) {
+                                        StickingContacts& sticking) {
   Octet fx = drive.x - system.x.damping * q.vx - system.x.stiffness * (q.x - system.x.anchor);
   Octet fy = drive.y - system.y.damping * q.vy - system.y.stiffness * (q.y - system.y.anchor) - system.weight;
   Octet moment = drive.phi - system.phi.damping * q.omega - system.phi.stiffness * (q.phi - system.phi.anchor);
@@ -142,9 +96,10 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
         break;
       }
       case Slip::stick: {
-        Sticking& at = sticking[static_cast<std::size_t>(sticking_count++)];
+        StickingOctet& at = sticking[static_cast<std::size_t>(sticking_count++)];
         at.index = index;
-        at.tangent = t;
+        at.x = t.x;
+        at.y = t.y;
         at.moment = cross(lever, t);
         if (part_face) {
           const Vec2Octet t_rate = {-q.omega * t.y, q.omega * t.x};
@@ -223,17 +178,15 @@ void evaluate_drives(const DriveForm* forms, const Direction* directions, int co
 
 void evaluate_forces_under(const NormalForcesOctet& acting, const System& system, const StateOctet& states,
                            const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces) {
-  std::array<Sticking, kSiteCount> sticking;
-  int left_to_hold = 0;
+  StickingContacts sticking;
+  int count = 0;
+  bool held = false;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    left_to_hold = evaluate(acting, system, states, drive, contacts, forces, sticking);
-    if (left_to_hold != 1) return;
-    const SingleHold single = single_hold(system);
-    if (single.delicate) return;
-    hold_single(system, single.least_mobility, sticking[0], forces);
-    left_to_hold = 0;
+    count = evaluate(acting, system, states, drive, contacts, forces, sticking);
+    held = count == 0 || (count == 1 && hold_single(system, sticking[0], forces)) ||
+           (count == 2 && hold_pair(system, sticking[0], sticking[1], forces));
   });
-  if (left_to_hold > 0) hold_sticking(system, sticking, left_to_hold, forces);
+  if (!held) hold_one_by_one(system, sticking.data(), count, forces);
 }
 
 }  // namespace vibratory_alignment

@@ -22,19 +22,18 @@ struct Kind {
 };
 
 /// By the dearest law that contacts follow, and for each: one that is alone, beside others, beside others of that law.
-/// The series have a loop of their own for one that is alone; an evaluation finds T where a contact sticks, where two
-/// do by a factorization. What sticking adds is softer than the base, the tanh layer is not; two that stick hold the
-/// part.
+/// The series have a loop of their own for one that is alone; an evaluation finds T where a contact sticks. What
+/// sticking adds is softer than the base, the tanh layer is not; two that stick hold the part.
 constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;
-constexpr std::array<Kind, 9> kKind = {{{1.0, 0.053, 0},
-                                        {2.3, 0.065, 1},
-                                        {2.3, 0.065, 1},
-                                        {1.6, 0.075, 0},
-                                        {4.8, 0.14, 1},
-                                        {6.0, 1.2, 2},
-                                        {1.2, 0.098, 3},
-                                        {3.0, 0.11, 4},
-                                        {3.6, 0.17, 4}}};
+constexpr std::array<Kind, 9> kKind = {{{1.0, 0.052, 0},
+                                        {2.5, 0.066, 1},
+                                        {2.5, 0.066, 1},
+                                        {1.6, 0.058, 0},
+                                        {5.0, 0.13, 1},
+                                        {6.6, 0.17, 2},
+                                        {1.2, 0.092, 3},
+                                        {3.3, 0.1, 4},
+                                        {3.9, 0.165, 4}}};
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.

@@ -53,6 +53,10 @@ std::vector<std::vector<Touch>> all_touches() {
     for (const Face face : {Face::top, Face::left_wall}) all.push_back({{Site::b2, face, slip}});
     all.push_back({{Site::b1, Face::right_wall, slip}, {Site::b1_floor, Face::floor, slip}});
     all.push_back({{Site::a1, Face::bottom, Slip::plus}, {Site::b2, Face::top, slip}});
+    all.push_back({{Site::a1, Face::bottom, slip}, {Site::b2, Face::left_wall, slip}});
+    all.push_back({{Site::a2, Face::left_side, Slip::stick},
+                   {Site::b1, Face::right_wall, Slip::plus},
+                   {Site::b1_floor, Face::floor, slip}});
   }
   return all;
 }

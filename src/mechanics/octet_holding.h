@@ -1,0 +1,100 @@
+// The tangential forces that hold sticking contacts (mechanics/holding_forces.h) at eight states at once.
+#pragma once
+
+#include "mechanics/holding_forces.h"
+#include "mechanics/octet_forces.h"
+
+namespace vibratory_alignment {
+
+/// A sticking contact: its row of J, and what the velocities alone make of V'.
+struct StickingOctet {
+  std::size_t index;  ///< in ForcesOctet::contact
+  Octet x, y, moment;
+  Octet slip_rate;
+};
+
+/// What forces leave of an acceleration that they change by so much.
+VIBRATORY_ALIGNMENT_INLINE void take_out(const Octet& change, Octet& acceleration) {
+  const Octet left = acceleration + change;
+  acceleration = zero_unless_above(abs(left), kRest * abs(acceleration), left);
+}
+
+/// As HoldingForces::hold_motion_of_one(). False, with nothing done, where that is delicate.
+VIBRATORY_ALIGNMENT_INLINE bool hold_single(const System& system, const StickingOctet& row, ForcesOctet& forces) {
+  const SingleHold single = single_hold(system);
+  if (single.delicate) return false;
+  const Octet of_x = system.x.inverse_inertia * row.x, of_y = system.y.inverse_inertia * row.y,
+              of_phi = system.phi.inverse_inertia * row.moment;
+  const Octet mobility = of_x * row.x + of_y * row.y + of_phi * row.moment;
+  const Octet rate = row.x * forces.ax + row.y * forces.ay + row.moment * forces.alpha;
+  const Octet force = zero_unless_above(mobility, single.least_mobility, (-rate - row.slip_rate) / mobility);
+  forces.contact[row.index].tangential_force = force;
+  take_out(of_x * force, forces.ax);
+  take_out(of_y * force, forces.ay);
+  take_out(of_phi * force, forces.alpha);
+  return true;
+}
+
+/// Two contacts that leave the part one motion. With a_i the rows of A = J M^-1/2, b the part of a_2 across a_1,
+/// a_2 = p a_1 + b, and z = M^1/2 q'',
+///     T_2 = -(b.z + s_2 - p s_1)/b.b,    T_1 = -(a_1.z + s_1)/a_1.a_1 - p T_2
+/// which forms neither G nor V' (docs/hybrid_step.md "Stick"). False, with nothing done, where that is delicate: an
+/// axis is locked or far less mobile than others, or the rows of J are nearly parallel in a state.
+VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOctet& first, const StickingOctet& second,
+                                          ForcesOctet& forces) {
+  constexpr double kLeastAngle = 1e-2;  // its sine, between the rows of J
+  if (!system.x.moves || !system.y.moves || !system.phi.moves || single_hold(system).delicate) return false;
+  const double reach = system.half_width + system.base_distance;
+  using Row = std::array<Octet, 3>;
+  const auto dot = [](const Row& u, const Row& v)
+                       VIBRATORY_ALIGNMENT_INLINE_LAMBDA { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
+  const Row j1 = {first.x, first.y, first.moment / reach}, j2 = {second.x, second.y, second.moment / reach};
+  const Row across = {j1[1] * j2[2] - j1[2] * j2[1], j1[2] * j2[0] - j1[0] * j2[2], j1[0] * j2[1] - j1[1] * j2[0]};
+  const Octet sine = dot(across, across) - (kLeastAngle * kLeastAngle) * dot(j1, j1) * dot(j2, j2);
+  if (!(largest(-sine) < 0.0)) return false;
+
+  const std::array<double, 3> scale = {std::sqrt(system.x.inverse_inertia), std::sqrt(system.y.inverse_inertia),
+                                       std::sqrt(system.phi.inverse_inertia)};
+  const Row a1 = {scale[0] * first.x, scale[1] * first.y, scale[2] * first.moment},
+            a2 = {scale[0] * second.x, scale[1] * second.y, scale[2] * second.moment};
+  const Octet size = dot(a1, a1);
+  Octet p{};
+  Row b = a2;
+  for (int pass = 0; pass < 2; ++pass) {  // what rounding leaves of a_1 is taken out once more
+    const Octet along = dot(b, a1) / size;
+    p += along;
+    for (std::size_t axis = 0; axis < 3; ++axis) b[axis] -= along * a1[axis];
+  }
+  const Row z = {forces.ax / scale[0], forces.ay / scale[1], forces.alpha / scale[2]};
+  const Octet of_first = -(dot(a1, z) + first.slip_rate) / size;  // T_1 + p T_2
+  const Octet force = -(dot(b, z) + second.slip_rate - p * first.slip_rate) / dot(b, b);
+  forces.contact[first.index].tangential_force = of_first - p * force;
+  forces.contact[second.index].tangential_force = force;
+  take_out(scale[0] * (of_first * a1[0] + force * b[0]), forces.ax);
+  take_out(scale[1] * (of_first * a1[1] + force * b[1]), forces.ay);
+  take_out(scale[2] * (of_first * a1[2] + force * b[2]), forces.alpha);
+  return true;
+}
+
+/// Any contacts, state by state.
+inline void hold_one_by_one(const System& system, const StickingOctet* rows, int count, ForcesOctet& forces) {
+  for (std::size_t i = 0; i < Octet::kSize; ++i) {
+    HoldingForces::Rows of_state;
+    HoldingForces::Vector slip_rates;
+    for (std::size_t m = 0; m < static_cast<std::size_t>(count); ++m) {
+      of_state[m] = {rows[m].x[i], rows[m].y[i], rows[m].moment[i]};
+      slip_rates[m] = rows[m].slip_rate[i];
+    }
+    HoldingForces holding;
+    holding.set(system, of_state, count);
+    const HoldingForces::Answer held =
+        holding.hold_motion({{}, forces.ax[i], forces.ay[i], forces.alpha[i]}, slip_rates);
+    for (std::size_t m = 0; m < static_cast<std::size_t>(count); ++m)
+      forces.contact[rows[m].index].tangential_force[i] = held.force[m];
+    forces.ax[i] = held.x;
+    forces.ay[i] = held.y;
+    forces.alpha[i] = held.phi;
+  }
+}
+
+}  // namespace vibratory_alignment
