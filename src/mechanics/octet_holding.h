@@ -13,6 +13,13 @@ struct StickingOctet {
   Octet slip_rate;
 };
 
+/// Numbers of the axes x, y, phi.
+using RowOctet = std::array<Octet, 3>;
+
+VIBRATORY_ALIGNMENT_INLINE Octet dot(const RowOctet& u, const RowOctet& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
 /// What forces leave of an acceleration that they change by so much.
 VIBRATORY_ALIGNMENT_INLINE void take_out(const Octet& change, Octet& acceleration) {
   const Octet left = acceleration + change;
@@ -45,27 +52,24 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOc
   constexpr double kLeastAngle = 1e-2;  // its sine, between the rows of J
   if (!system.x.moves || !system.y.moves || !system.phi.moves || single_hold(system).delicate) return false;
   const double reach = system.half_width + system.base_distance;
-  using Row = std::array<Octet, 3>;
-  const auto dot = [](const Row& u, const Row& v)
-                       VIBRATORY_ALIGNMENT_INLINE_LAMBDA { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
-  const Row j1 = {first.x, first.y, first.moment / reach}, j2 = {second.x, second.y, second.moment / reach};
-  const Row across = {j1[1] * j2[2] - j1[2] * j2[1], j1[2] * j2[0] - j1[0] * j2[2], j1[0] * j2[1] - j1[1] * j2[0]};
+  const RowOctet j1 = {first.x, first.y, first.moment / reach}, j2 = {second.x, second.y, second.moment / reach};
+  const RowOctet across = {j1[1] * j2[2] - j1[2] * j2[1], j1[2] * j2[0] - j1[0] * j2[2], j1[0] * j2[1] - j1[1] * j2[0]};
   const Octet sine = dot(across, across) - (kLeastAngle * kLeastAngle) * dot(j1, j1) * dot(j2, j2);
   if (!(largest(-sine) < 0.0)) return false;
 
   const std::array<double, 3> scale = {std::sqrt(system.x.inverse_inertia), std::sqrt(system.y.inverse_inertia),
                                        std::sqrt(system.phi.inverse_inertia)};
-  const Row a1 = {scale[0] * first.x, scale[1] * first.y, scale[2] * first.moment},
-            a2 = {scale[0] * second.x, scale[1] * second.y, scale[2] * second.moment};
+  const RowOctet a1 = {scale[0] * first.x, scale[1] * first.y, scale[2] * first.moment},
+                 a2 = {scale[0] * second.x, scale[1] * second.y, scale[2] * second.moment};
   const Octet size = dot(a1, a1);
   Octet p{};
-  Row b = a2;
+  RowOctet b = a2;
   for (int pass = 0; pass < 2; ++pass) {  // what rounding leaves of a_1 is taken out once more
     const Octet along = dot(b, a1) / size;
     p += along;
     for (std::size_t axis = 0; axis < 3; ++axis) b[axis] -= along * a1[axis];
   }
-  const Row z = {forces.ax / scale[0], forces.ay / scale[1], forces.alpha / scale[2]};
+  const RowOctet z = {forces.ax / scale[0], forces.ay / scale[1], forces.alpha / scale[2]};
   const Octet of_first = -(dot(a1, z) + first.slip_rate) / size;  // T_1 + p T_2
   const Octet force = -(dot(b, z) + second.slip_rate - p * first.slip_rate) / dot(b, b);
   forces.contact[first.index].tangential_force = of_first - p * force;

@@ -43,6 +43,15 @@ Load3 drive_at_start(const DriveForms& drives) {
   return load;
 }
 
+/// Positions and velocities of one axis at the stages from its accelerations. Returns the changes of the velocities.
+VIBRATORY_ALIGNMENT_INLINE Octet place(double h, double q0, double v0, const Octet& acceleration, Octet& q, Octet& v) {
+  const StageTable& table = stage_table();
+  const Octet before = v;
+  q = q0 + (h * v0) * table.node + (h * h) * combine(table.position, acceleration);
+  v = v0 + h * combine(table.velocity, acceleration);
+  return v - before;
+}
+
 }  // namespace
 
 void StageEquations::begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
@@ -120,22 +129,14 @@ void StageEquations::set_rounding(double h) {
 
 /// States of the stages from their accelerations. Returns the largest change of a velocity.
 double StageEquations::place_stages(double h) {
-  const StageTable& table = stage_table();
   double change = 0.0;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    const Octet t = table.node * h;
-    Stages before = {stages_.vx, stages_.vy, stages_.omega};
-    const auto place = [&](std::size_t axis, double q0, double v0, Octet& q, Octet& v)
-                           VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-                             q = q0 + t * v0 + h * h * combine(table.position, acceleration_[axis]);
-                             v = v0 + h * combine(table.velocity, acceleration_[axis]);
-                             before[axis] = v - before[axis];
-                           };
-    place(0, start_.x, start_.vx, stages_.x, stages_.vx);
-    place(1, start_.y, start_.vy, stages_.y, stages_.vy);
-    place(2, start_.phi, start_.omega, stages_.phi, stages_.omega);
-    const Octet changes = sizes_of(before);
-    change = all_finite(changes) ? largest(changes) : std::numeric_limits<double>::infinity();
+    Stages changes;
+    changes[0] = place(h, start_.x, start_.vx, acceleration_[0], stages_.x, stages_.vx);
+    changes[1] = place(h, start_.y, start_.vy, acceleration_[1], stages_.y, stages_.vy);
+    changes[2] = place(h, start_.phi, start_.omega, acceleration_[2], stages_.phi, stages_.omega);
+    const Octet sizes = sizes_of(changes);
+    change = all_finite(sizes) ? largest(sizes) : std::numeric_limits<double>::infinity();
   });
   return change;
 }
