@@ -17,9 +17,6 @@ constexpr double kNearlySame = 1e-4;
 /// A mobility that is rounding beside that of the part.
 constexpr double kNoMobility = 2e-15;
 
-/// Ratio of the axes' mobilities from which on the last digits of a force show in the motion.
-constexpr double kUnequal = 1e6;
-
 /// Ratio beyond which the less mobile axis does not move at all.
 constexpr double kMotionless = 1e60;
 
@@ -43,7 +40,7 @@ SingleHold single_hold(const System& system) {
   double least = most;
   for (const double mobility : of_axes)
     if (mobility * kMotionless > most) least = std::min(least, mobility);
-  return {most > kUnequal * least, kNoMobility * typical_mobility(system)};
+  return {most > kUnequalMobility * least, kNoMobility * typical_mobility(system)};
 }
 
 /// J, rows of count_ contacts; columns from the most mobile axis to the least: as a row of (V M^-1/2)^T the first must

@@ -25,6 +25,9 @@ struct TangentRow {
 /// moves by rounding would have the time scale of rounding.
 constexpr double kRest = 1e-15;
 
+/// Ratio of the axes' mobilities from which on the last digits of a force show in the motion.
+constexpr double kUnequalMobility = 1e6;
+
 /// How a contact that sticks alone is held, whatever its row of J.
 struct SingleHold {
   bool delicate;          ///< see HoldingForces::delicate()

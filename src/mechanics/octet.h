@@ -1,5 +1,4 @@
-// Eight numbers at once: values at the stages of an implicit step. Every one goes through the same operations, as if it
-// were alone.
+// Eight numbers at once: values at the stages of an implicit step. All go through the same operations.
 #pragma once
 
 #include <cmath>
@@ -43,12 +42,12 @@ VIBRATORY_ALIGNMENT_INLINE Octet abs(const Octet& a) {
   return {a.low < 0.0 ? -a.low : a.low, a.high < 0.0 ? -a.high : a.high};
 }
 
-/// Each `a`, but 0 where `what` is not above `limit`.
-VIBRATORY_ALIGNMENT_INLINE Octet zero_unless_above(const Octet& what, const Octet& limit, const Octet& a) {
-  return {what.low > limit.low ? a.low : Quad{}, what.high > limit.high ? a.high : Quad{}};
+/// Each `a`, but 0 where `what` is at most `limit`; what is no number stays so.
+VIBRATORY_ALIGNMENT_INLINE Octet zero_up_to(const Octet& limit, const Octet& what, const Octet& a) {
+  return {what.low <= limit.low ? Quad{} : a.low, what.high <= limit.high ? Quad{} : a.high};
 }
 
-/// Largest and sum of the eight; the largest passes over what is no number.
+/// Largest and sum of the eight; the largest is any of them if one is no number.
 VIBRATORY_ALIGNMENT_INLINE double largest(const Octet& a) {
   const Quad most = a.low > a.high ? a.low : a.high;
   const double left = most[0] > most[1] ? most[0] : most[1], right = most[2] > most[3] ? most[2] : most[3];

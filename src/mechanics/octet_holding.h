@@ -1,6 +1,9 @@
 // The tangential forces that hold sticking contacts (mechanics/holding_forces.h) at eight states at once.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "mechanics/holding_forces.h"
 #include "mechanics/octet_forces.h"
 
@@ -23,7 +26,7 @@ VIBRATORY_ALIGNMENT_INLINE Octet dot(const RowOctet& u, const RowOctet& v) {
 /// What forces leave of an acceleration that they change by so much.
 VIBRATORY_ALIGNMENT_INLINE void take_out(const Octet& change, Octet& acceleration) {
   const Octet left = acceleration + change;
-  acceleration = zero_unless_above(abs(left), kRest * abs(acceleration), left);
+  acceleration = zero_up_to(kRest * abs(acceleration), abs(left), left);
 }
 
 /// As HoldingForces::hold_motion_of_one(). False, with nothing done, where that is delicate.
@@ -34,7 +37,7 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_single(const System& system, const Sticking
               of_phi = system.phi.inverse_inertia * row.moment;
   const Octet mobility = of_x * row.x + of_y * row.y + of_phi * row.moment;
   const Octet rate = row.x * forces.ax + row.y * forces.ay + row.moment * forces.alpha;
-  const Octet force = zero_unless_above(mobility, single.least_mobility, (-rate - row.slip_rate) / mobility);
+  const Octet force = zero_up_to(single.least_mobility, mobility, (-rate - row.slip_rate) / mobility);
   forces.contact[row.index].tangential_force = force;
   take_out(of_x * force, forces.ax);
   take_out(of_y * force, forces.ay);
@@ -45,17 +48,18 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_single(const System& system, const Sticking
 /// Two contacts that leave the part one motion. With a_i the rows of A = J M^-1/2, b the part of a_2 across a_1,
 /// a_2 = p a_1 + b, and z = M^1/2 q'',
 ///     T_2 = -(b.z + s_2 - p s_1)/b.b,    T_1 = -(a_1.z + s_1)/a_1.a_1 - p T_2
-/// which forms neither G nor V' (docs/hybrid_step.md "Stick"). False, with nothing done, where that is delicate: an
-/// axis is locked or far less mobile than others, or the rows of J are nearly parallel in a state.
+/// which forms neither G nor V' (docs/implicit_steps.md). False, with nothing done, where that is delicate: an axis is
+/// locked or far less mobile than others, or rows of J or A are nearly parallel in a state.
 VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOctet& first, const StickingOctet& second,
                                           ForcesOctet& forces) {
-  constexpr double kLeastAngle = 1e-2;  // its sine, between the rows of J
-  if (!system.x.moves || !system.y.moves || !system.phi.moves || single_hold(system).delicate) return false;
-  const double reach = system.half_width + system.base_distance;
+  constexpr double kLeastAngle = 1e-2;  // its sine, between the rows of J and those of A
+  const double reach = system.half_width + system.base_distance, mobility_of_x = system.x.inverse_inertia,
+               mobility_of_y = system.y.inverse_inertia, mobility_of_phi = reach * reach * system.phi.inverse_inertia;
+  const double least = std::min({mobility_of_x, mobility_of_y, mobility_of_phi});
+  if (!(std::max({mobility_of_x, mobility_of_y, mobility_of_phi}) < kUnequalMobility * least)) return false;
   const RowOctet j1 = {first.x, first.y, first.moment / reach}, j2 = {second.x, second.y, second.moment / reach};
   const RowOctet across = {j1[1] * j2[2] - j1[2] * j2[1], j1[2] * j2[0] - j1[0] * j2[2], j1[0] * j2[1] - j1[1] * j2[0]};
-  const Octet sine = dot(across, across) - (kLeastAngle * kLeastAngle) * dot(j1, j1) * dot(j2, j2);
-  if (!(largest(-sine) < 0.0)) return false;
+  const Octet short_of_j = (kLeastAngle * kLeastAngle) * dot(j1, j1) * dot(j2, j2) - dot(across, across);
 
   const std::array<double, 3> scale = {std::sqrt(system.x.inverse_inertia), std::sqrt(system.y.inverse_inertia),
                                        std::sqrt(system.phi.inverse_inertia)};
@@ -69,9 +73,11 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOc
     p += along;
     for (std::size_t axis = 0; axis < 3; ++axis) b[axis] -= along * a1[axis];
   }
+  const Octet rest = dot(b, b), short_of_a = (kLeastAngle * kLeastAngle) * dot(a2, a2) - rest;
+  if (!(largest(short_of_j) < 0.0 && largest(short_of_a) < 0.0)) return false;
   const RowOctet z = {forces.ax / scale[0], forces.ay / scale[1], forces.alpha / scale[2]};
   const Octet of_first = -(dot(a1, z) + first.slip_rate) / size;  // T_1 + p T_2
-  const Octet force = -(dot(b, z) + second.slip_rate - p * first.slip_rate) / dot(b, b);
+  const Octet force = -(dot(b, z) + second.slip_rate - p * first.slip_rate) / rest;
   forces.contact[first.index].tangential_force = of_first - p * force;
   forces.contact[second.index].tangential_force = force;
   take_out(scale[0] * (of_first * a1[0] + force * b[0]), forces.ax);

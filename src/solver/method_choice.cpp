@@ -47,7 +47,8 @@ constexpr double kTrial = 0.8, kFirstTrialInLayer = 1.2, kLongWay = 85.0;
 /// where it is taken again once the base rings no more.
 constexpr double kTrialGain = 10.0, kResumeGain = 1.5;
 
-/// Series steps before that is tried again where it was given up; after each further time twice as many.
+/// Series steps before that is tried again where it was given up; after each further time twice as many, until an
+/// ordinary trial comes sooner.
 constexpr int kWait = 4;
 
 /// Series steps to come that grow as the last one did, and how many times as long they become at most.
@@ -147,7 +148,7 @@ bool MethodChoice::starts(double length_over_ring, double longest) {
   const double usual = kKind[kind_].usual_implicit();
   const double length = std::min(length_over_ring, longest);
   const bool resumes = paid_ && series_steps_ >= wait_ && length > kResumeGain * usual * way;
-  if (!resumes && series_steps_ < patience_) return false;
+  if (!resumes && (series_steps_ < patience_ || length <= kShortestTrial * pace())) return false;
   attempt_ = tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
   if (resumes) paces_[kind_] = {way, std::max(paces_[kind_].steps, kPaceKnown)};

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kFar = 1e9;
 
-/// Length that passes over what rings, and gains nothing.
-constexpr double kQuiet = 1e-3;
+/// Length that passes over what rings, long enough for a trial, and gains nothing.
+constexpr double kQuiet = 2.0;
 
 /// A usual implicit step of one sliding contact, and its cost: 0.85, and 0.052 an evaluation.
 constexpr long kEffort = 36;
@@ -249,6 +249,17 @@ TEST(MethodChoice, nothing_is_tried_while_no_step_passes_over_what_rings) {
   EXPECT_TRUE(starts(choice, kQuiet));
 }
 
+TEST(MethodChoice, nothing_is_tried_where_only_what_is_too_short_passes_over_what_rings) {
+  MethodChoice choice;
+  for (int i = 0; i < 200; ++i) {
+    choice.look_at(kSliding);
+    EXPECT_FALSE(starts(choice, 1.19));
+    EXPECT_FALSE(starts(choice, kFar, 1.19));
+    go_by_series(choice);
+  }
+  EXPECT_TRUE(starts(choice, 1.21));
+}
+
 TEST(MethodChoice, a_ring_is_left_to_the_series_at_once) {
   MethodChoice choice = rich();
   choice.ring();
@@ -366,7 +377,7 @@ TEST(MethodChoice, every_contact_has_a_pace_of_its_own) {
   choice.leave_contact();
   choice.look_at(kSliding);
   int steps = 0;
-  for (; steps < 1000 && !starts(choice, kQuiet); ++steps) go_by_series(choice, 2.0);
+  for (; steps < 1000 && !starts(choice, 2.0 * kQuiet); ++steps) go_by_series(choice, 2.0);
   EXPECT_EQ(steps, kTrialAfter);
   EXPECT_DOUBLE_EQ(choice.trial_length(), 2.0 * kTrialGain * kUsual);
 }
