@@ -151,7 +151,7 @@ void take_turns(const va::Scene& scene, double tolerance, double seconds, Measur
     for (std::size_t i = 0; i < all.size(); ++i) {
       Measured& m = all[i];
       if (turn > 0 && !m.failure.empty()) continue;
-      if (turn >= kTurnsOfAll && m.least() > kHopeless * best) continue;
+      if (turn >= kTurnsOfAll && m.usable() && m.least() > kHopeless * best) continue;
       take_turn(scene, kSolvers[i], tolerance, m);
       spent += m.seconds.empty() ? 0.0 : m.seconds.back();
     }

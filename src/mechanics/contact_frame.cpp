@@ -5,18 +5,6 @@
 namespace vibratory_alignment {
 namespace {
 
-/// C1 n_y^2 + C2 n_x^2 and the like, n in world axes.
-double along_normal(Face face, double cos_phi, double sin_phi, double across, double along) {
-  switch (face) {
-    case Face::bottom: return along * cos_phi * cos_phi + across * sin_phi * sin_phi;
-    case Face::right_side:
-    case Face::left_side: return along * sin_phi * sin_phi + across * cos_phi * cos_phi;
-    case Face::right_wall:
-    case Face::left_wall: return across;
-    default: return along;
-  }
-}
-
 /// Derivative of along_normal() by phi.
 double slope_along_normal(Face face, double cos_phi, double sin_phi, double across, double along) {
   if (face == Face::bottom) return 2.0 * cos_phi * sin_phi * (across - along);

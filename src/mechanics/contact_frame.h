@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "mechanics/contact.h"
+#include "mechanics/quad.h"
 #include "mechanics/state.h"
 #include "mechanics/system.h"
 
@@ -52,6 +53,20 @@ Vec2 site_point(const System& system, const State& state, Site site);
 
 /// The same with cos and sin of the state's tilt known.
 Vec2 site_point(const System& system, const State& state, Site site, double cos_phi, double sin_phi);
+
+/// C1 n_y^2 + C2 n_x^2 and the like of a face, n in world axes: k(n) or h(n) from those across and along the slot.
+template <typename Number>
+VIBRATORY_ALIGNMENT_INLINE Number along_normal(Face face, const Number& cos_phi, const Number& sin_phi, double across,
+                                               double along) {
+  switch (face) {
+    case Face::bottom: return along * cos_phi * cos_phi + across * sin_phi * sin_phi;
+    case Face::right_side:
+    case Face::left_side: return along * sin_phi * sin_phi + across * cos_phi * cos_phi;
+    case Face::right_wall:
+    case Face::left_wall: return across;
+    default: return along;
+  }
+}
 
 /// Base stiffness k(n) and damping h(n) seen by `face` at tilt phi.
 double stiffness_of(const System& system, Face face, double cos_phi, double sin_phi);

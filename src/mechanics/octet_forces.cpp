@@ -33,18 +33,6 @@ VIBRATORY_ALIGNMENT_INLINE void tilts_of(const Octet& phi, Octet& cos, Octet& si
   sin = phi - phi * odd;
 }
 
-/// k(n) or h(n) of a face, as stiffness_of() and damping_of().
-VIBRATORY_ALIGNMENT_INLINE Octet along_normal(Face face, const Octet& c, const Octet& s, double across, double along) {
-  switch (face) {
-    case Face::bottom: return along * c * c + across * s * s;
-    case Face::right_side:
-    case Face::left_side: return along * s * s + across * c * c;
-    case Face::right_wall:
-    case Face::left_wall: return across;
-    default: return along;
-  }
-}
-
 /// As contact_kinematics() and evaluate_forces(). Returns the number of sticking contacts.
 VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const System& system, const StateOctet& q,
                                         const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces,

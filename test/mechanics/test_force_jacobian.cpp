@@ -9,47 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "../support/scenes.h"
+#include "../support/touching.h"
 #include "mechanics/octet_forces.h"
 
 namespace vibratory_alignment {
 namespace {
 
-struct Touch {
-  Site site;
-  Face face;
-  Slip slip;
-};
-
-System anisotropic_system() {
-  System system = make_system(test::scene_of(test::plain));
-  system.has_floor = true;
-  system.floor_depth = 0.41;
-  system.x.stiffness = 0.7;
-  system.x.damping = 0.3;
-  system.friction = 0.4;
-  system.regularization = 0.5;
-  system.stiffness_x = 31.0;
-  system.stiffness_y = 17.0;
-  system.damping_x = 3.0;
-  system.damping_y = 5.0;
-  return system;
-}
+using test::anisotropic_system;
+using test::states_of;
 
 State random_state(std::mt19937& random) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   return {0.5 * u(random), 0.9 + 0.5 * u(random), 2.0 * u(random), u(random), u(random), 2.0 * u(random)};
-}
-
-ContactStates states_of(const std::vector<Touch>& touches) {
-  ContactStates contacts{};
-  for (const Touch& touch : touches) {
-    ContactState& contact = contacts[static_cast<std::size_t>(touch.site)];
-    contact.phase = Phase::loaded;
-    contact.face = touch.face;
-    contact.slip = touch.slip;
-  }
-  return contacts;
 }
 
 Forces forces_at(const System& system, const State& state, const ContactStates& contacts) {

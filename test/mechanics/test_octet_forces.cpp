@@ -9,43 +9,14 @@
 #include <random>
 #include <vector>
 
-#include "../support/scenes.h"
+#include "../support/touching.h"
 
 namespace vibratory_alignment {
 namespace {
 
-struct Touch {
-  Site site;
-  Face face;
-  Slip slip;
-};
-
-System anisotropic_system() {
-  System system = make_system(test::scene_of(test::plain));
-  system.has_floor = true;
-  system.floor_depth = 0.41;
-  system.x.stiffness = 0.7;
-  system.x.damping = 0.3;
-  system.weight = 0.2;
-  system.friction = 0.4;
-  system.regularization = 0.5;
-  system.stiffness_x = 31.0;
-  system.stiffness_y = 17.0;
-  system.damping_x = 3.0;
-  system.damping_y = 5.0;
-  return system;
-}
-
-ContactStates states_of(const std::vector<Touch>& touches) {
-  ContactStates contacts{};
-  for (const Touch& touch : touches) {
-    ContactState& contact = contacts[static_cast<std::size_t>(touch.site)];
-    contact.phase = Phase::loaded;
-    contact.face = touch.face;
-    contact.slip = touch.slip;
-  }
-  return contacts;
-}
+using test::anisotropic_system;
+using test::states_of;
+using test::Touch;
 
 std::vector<std::vector<Touch>> all_touches() {
   std::vector<std::vector<Touch>> all;
