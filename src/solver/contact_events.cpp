@@ -29,6 +29,9 @@ constexpr double kLengthRounding = 3e-16;
 /// Times are compared with that of what has been found only up to rounding.
 constexpr double kSurelyLater = 1.0 + 1e-12;
 
+/// A step is looked along anew, up to the end that a contact sets it, where it is this much shorter.
+constexpr double kShorter = 0.9;
+
 /// Largest correction of the time at which a contact loads again, as a share of it, and how often it is corrected.
 constexpr double kMostReloadCorrection = 1e-3;
 constexpr int kReloadCorrections = 3;
@@ -45,19 +48,21 @@ class Search {
         segment_(segment),
         pins_(pins),
         recoveries_(recoveries),
+        drives_(drives),
         order_(segment.order),
         duration_(segment.duration),
         found_(found) {
-    bound_motion(drives);
+    bound_motion();
   }
 
   void run(const OutcomeGuards& outcomes) {
-    int index = 0;
+    for (int index = 0; index < segment_.loaded_count; ++index) guard_forces(segment_.loaded[index].site, index);
+    if (found_.count > 0) found_at_forces_ = found_.time;
     for (int i = 0, end = site_end(system_); i < end; ++i) {
       const auto site = static_cast<Site>(i);
       if (!site_in_use(system_, site)) continue;
       switch (segment_.contacts[i].phase) {
-        case Phase::loaded: guard_loaded(site, index++); break;
+        case Phase::loaded: guard_foot(site); break;
         case Phase::unloaded: guard_unloaded(site); break;
         case Phase::outside: guard_outside(site); break;
         case Phase::free: guard_free(site); break;
@@ -81,41 +86,51 @@ class Search {
     found_.events[found_.count++] = {kind, site, face};
   }
 
+  /// Forces end most steps in contact: what is not certain as far as the step goes is looked for up to there only. True
+  /// when that is shorter than before. All searches but for the forces are as long, and the mirror image finds the same.
+  bool shorten() {
+    if (!(found_at_forces_ > 0.0 && found_at_forces_ < kShorter * duration_)) return false;
+    duration_ = kSurelyLater * found_at_forces_;
+    bound_motion();
+    return true;
+  }
+
   Vec2 start_point(Site site) const {
     return site_point(system_, segment_.begin, site, segment_.cos_phi[0], segment_.sin_phi[0]);
   }
 
-  /// Largest speeds and accelerations of the axes during the segment.
-  void bound_motion(const DriveForms& drives) {
+  /// Largest speeds of the axes during the segment, and accelerations that bound how far from their tangents they go.
+  void bound_motion() {
     double force_x = 0.0, force_y = system_.weight, moment = 0.0;
-    for (int i = 0; i < drives.count; ++i) {
-      const DriveForm& form = drives.form[i];
+    for (int i = 0; i < drives_.count; ++i) {
+      const DriveForm& form = drives_.form[i];
       const double most = std::abs(form.constant) + std::abs(form.slope) * duration_ + std::abs(form.amplitude);
-      (drives.direction[i] == Direction::x ? force_x : drives.direction[i] == Direction::y ? force_y : moment) += most;
+      (drives_.direction[i] == Direction::x ? force_x : drives_.direction[i] == Direction::y ? force_y : moment) += most;
     }
-    const Load3 terms = acceleration_terms();
-    const double ax = most_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x);
-    const double ay = most_acceleration(system_.y, segment_.y, segment_.vy, force_y, terms.y);
-    turn_acceleration_ = most_acceleration(system_.phi, segment_.phi, segment_.omega, moment, terms.phi);
+    const Load3 terms = mean_accelerations();
+    const double ax = bound_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x);
+    const double ay = bound_acceleration(system_.y, segment_.y, segment_.vy, force_y, terms.y);
+    turn_acceleration_ = bound_acceleration(system_.phi, segment_.phi, segment_.omega, moment, terms.phi);
     acceleration_ = ax + ay;
     speed_ = std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + acceleration_ * duration_;
     turn_rate_ = std::abs(segment_.omega[0]) + turn_acceleration_ * duration_;
   }
 
-  /// Sums of the absolute values of the terms of the accelerations' series.
-  Load3 acceleration_terms() const {
+  /// Sums of the absolute values of the terms of (v(t) - v(0))/t: A, of which |v(t) - v(0)| <= A t and
+  /// |q(t) - q(0) - v(0) t| <= A t^2/2.
+  Load3 mean_accelerations() const {
     Pair sum{};
-    double turn = 0.0, power = order_;
-    for (int k = order_; k >= 1; --k, power -= 1.0) {
-      sum = sum * duration_ + power * Pair{std::abs(segment_.vx[k]), std::abs(segment_.vy[k])};
-      turn = turn * duration_ + power * std::abs(segment_.omega[k]);
+    double turn = 0.0;
+    for (int k = order_; k >= 1; --k) {
+      sum = sum * duration_ + Pair{std::abs(segment_.vx[k]), std::abs(segment_.vy[k])};
+      turn = turn * duration_ + std::abs(segment_.omega[k]);
     }
     return {sum[0], sum[1], turn};
   }
 
-  /// Largest acceleration of an axis: in flight from its equation, where its spring and damper act on at most what the
-  /// acceleration itself makes of the start; else the sum of its series' terms.
-  double most_acceleration(const Axis& axis, const Series& q, const Series& v, double force, double terms) const {
+  /// A of an axis: in flight from its equation, where its spring and damper act on at most what the acceleration itself
+  /// makes of the start; else the sum of its series' terms.
+  double bound_acceleration(const Axis& axis, const Series& q, const Series& v, double force, double terms) const {
     if (!axis.moves) return 0.0;
     const double h = duration_, speed = std::abs(v[0]);
     const double feedback = axis.inverse_inertia * (0.5 * axis.stiffness * h * h + axis.damping * h);
@@ -126,7 +141,8 @@ class Search {
     return terms;
   }
 
-  /// A site's point at the segment's start with its rate, and a bound on its second derivative during the segment.
+  /// A site's point at the segment's start with its rate, and an acceleration that bounds how far from its tangent it
+  /// goes.
   struct PointBound {
     Vec2 p, rate;
     double acceleration = 0.0;
@@ -162,7 +178,11 @@ class Search {
   }
 
   /// True when a site's point surely stays outside during the segment. `pinned`: face on which the point starts.
-  bool stays_outside(Site site, const Region& region, Face pinned) const {
+  bool stays_outside(Site site, const Region& region, Face pinned) {
+    return surely_outside(site, region, pinned) || (shorten() && surely_outside(site, region, pinned));
+  }
+
+  bool surely_outside(Site site, const Region& region, Face pinned) const {
     const PointBound bound = bound_point(site);
     for (int j = 0; j < region.count; ++j) {
       const RegionCondition& condition = region.conditions[j];
@@ -187,11 +207,15 @@ class Search {
   }
 
   void guard_limits(Site site, Face face) {
-    const PointBound bound = bound_point(site);
+    PointBound bound = bound_point(site);
     const Region limits = face_limits(system_, face, bound.p);
     for (int j = 0; j < limits.count; ++j) {
       const RegionCondition& limit = limits.conditions[j];
       if (largest(limit, bound, -1.0, false) < 0.0) continue;
+      if (shorten()) {
+        bound = bound_point(site);
+        if (largest(limit, bound, -1.0, false) < 0.0) continue;
+      }
       offer(first_fall(condition_series(limit, site), order_, duration_, 0), EventKind::run_off, site, limit.face);
     }
   }
@@ -206,7 +230,8 @@ class Search {
     return sum <= noise_->slip_rate[loaded] * duration_ + kSlipRounding * speed_;
   }
 
-  void guard_loaded(Site site, int loaded) {
+  /// Normal force and friction of a loaded contact.
+  void guard_forces(Site site, int loaded) {
     const ContactSeries& contact = segment_.loaded[loaded];
     // friction's events come before most releases, which then need not be searched for
     const SlipTimes slips = find_slips(site, loaded);
@@ -215,11 +240,14 @@ class Search {
       if (time != kNoRoot && (before == kNoRoot || time < before)) before = time;
     const int zeros = zeros_of(contact.normal_force, pins_[static_cast<std::size_t>(site)].normal);
     offer(fall_before(before, contact.normal_force, order_, zeros), EventKind::release, site);
-    const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
-    // a foot that sticks stays where it is, at the very end of the face too, where the rounding or the error of a step
-    // would carry it beyond
-    if (state.slip != Slip::stick) guard_limits(site, state.face);
     for (const double time : slips.time) offer(time, slips.kind, site);
+  }
+
+  /// The foot of a loaded contact. One that sticks stays where it is, at the very end of the face too, where the
+  /// rounding or the error of a step would carry it beyond.
+  void guard_foot(Site site) {
+    const ContactState& state = segment_.contacts[static_cast<std::size_t>(site)];
+    if (state.slip != Slip::stick) guard_limits(site, state.face);
   }
 
   /// first_fall() on the segment, unless it is surely later than the time `before`, if there is one.
@@ -415,11 +443,15 @@ class Search {
                     : RegionCondition{j == 1 ? 1.0 : -1.0, 0.0, system_.slot_half_width, Face::none};
     };
     // mostly one of them surely fails throughout
-    for (const Site site : {Site::b1, Site::b2}) {
-      const PointBound bound = bound_point(site);
-      for (int j = 0; j < count(site); ++j)
-        if (largest(asked(j), bound, 1.0, false) < 0.0) return;
-    }
+    const auto one_fails = [&] {
+      for (const Site site : {Site::b1, Site::b2}) {
+        const PointBound bound = bound_point(site);
+        for (int j = 0; j < count(site); ++j)
+          if (largest(asked(j), bound, 1.0, false) < 0.0) return true;
+      }
+      return false;
+    };
+    if (one_fails() || (shorten() && one_fails())) return;
     Conditions conditions;
     conditions.count = 0;
     for (const Site site : {Site::b1, Site::b2})
@@ -432,8 +464,10 @@ class Search {
   Segment& segment_;
   const Pins& pins_;
   const Recoveries& recoveries_;
+  const DriveForms& drives_;
   int order_;
   double duration_;
+  double found_at_forces_ = 0.0;  ///< time of the first event of normal forces and friction, if there is one
   double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
   std::optional<SeriesNoise> noise_;  ///< once it has been asked for
   FoundEvents& found_;

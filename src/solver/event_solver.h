@@ -48,6 +48,7 @@ class EventSolver final : public Solver {
   double chosen_contact_step(double longest, const DriveForms& drives);
   double length_over_ring(double longest, const DriveForms& drives);
   void ring();
+  double usual_reach();
   bool has_event(double step, const DriveForms& drives);
   double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
   void leave_implicit_step();

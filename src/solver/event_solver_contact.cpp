@@ -70,6 +70,7 @@ bool EventSolver::must_part() const {
 double EventSolver::expand_contact(double longest, const DriveForms& drives) {
   reach_.begin(longest);
   series_.expand_contact(state_, drives, contact_order_, segment_, &reach_);
+  choice_.note_powers(segment_.order - contact_order_);
   if (last_terms(segment_) < kNearOverflow) return reach_.last_time();
   // rates so high that their powers overflow
   series_.expand_contact(state_, drives, kLowOrder, segment_);
@@ -160,6 +161,15 @@ void EventSolver::ring() {
   choice_.ring();
 }
 
+/// How far the series of the last step would hold with the usual number of powers.
+double EventSolver::usual_reach() {
+  const int order = segment_.order;
+  segment_.order = contact_order_;
+  const double reach = reach_.time(segment_);
+  segment_.order = order;
+  return reach;
+}
+
 /// True when the series of a contact step have an event within `step`.
 bool EventSolver::has_event(double step, const DriveForms& drives) {
   FoundEvents found;
@@ -172,9 +182,9 @@ bool EventSolver::has_event(double step, const DriveForms& drives) {
 double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
   choice_.look_at(segment_.contacts);
   if (choice_.may_pass_over()) {
-    const double step = series_contact_step(longest, drives);
-    const double change = normal_force_change(segment_, std::min(step, longest));
-    if (!choice_.passing_over_pays(step, longest, change) || has_event(std::min(step, longest), drives)) {
+    const double step = series_contact_step(longest, drives), usual_step = usual_reach();
+    const double change = normal_force_change(segment_, std::min(usual_step, longest));
+    if (!choice_.passing_over_pays(usual_step, longest, change) || has_event(std::min(step, longest), drives)) {
       choice_.earn();
       return step;
     }

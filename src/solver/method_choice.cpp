@@ -35,6 +35,9 @@ constexpr std::array<Kind, 9> kKind = {{{1.0, 0.052, 0},
                                         {3.3, 0.1, 4},
                                         {3.9, 0.165, 4}}};
 
+/// What a power more than usual adds to the cost of a series step.
+constexpr double kPower = 0.03;
+
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
 constexpr double kTrialShare = 0.16, kMostCredit = 130.0;
@@ -95,6 +98,8 @@ std::size_t kind_of(const ContactStates& contacts) {
 
 MethodChoice::MethodChoice() { leave_to_series(kTrialAfter); }
 
+double MethodChoice::series_cost() const { return kKind[kind_].series * (1.0 + kPower * more_powers_); }
+
 /// 0 where it is not known. Kinds that have not been stepped yet have the one of others whose base rings alike.
 double MethodChoice::pace() const {
   static_assert(kKind.size() == kKinds);
@@ -127,7 +132,7 @@ bool MethodChoice::passing_over_pays(double step, double longest, double change)
 }
 
 void MethodChoice::start_passing_over(double step) {
-  paces_[kind_] = {step / kKind[kind_].series, kPaceKnown};
+  paces_[kind_] = {step / series_cost(), kPaceKnown};
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }
@@ -182,7 +187,7 @@ bool MethodChoice::asks_series() {
 
 /// Implicit steps that the series outrun lose their credit, and the series learn their pace when they go.
 void MethodChoice::learn_pace(double step) {
-  const double way = kUndisturbed * step / kKind[kind_].series, before = pace();
+  const double way = kUndisturbed * step / series_cost(), before = pace();
   if (!(way > before)) return;
   const double now = before + kBelieved * (way - before);
   paces_[kind_] = {now, std::max(paces_[kind_].steps, kPaceKnown)};
@@ -191,17 +196,17 @@ void MethodChoice::learn_pace(double step) {
 
 void MethodChoice::earn() {
   ++series_steps_;
-  credit_ = std::min(credit_ + kTrialShare * kKind[kind_].series, kMostCredit);
+  credit_ = std::min(credit_ + kTrialShare * series_cost(), kMostCredit);
 }
 
 void MethodChoice::settle_series(double gone, double longest) {
   if (gone > 0.0) may_pass_over_ = false;
   if (gone == longest) return;  // cut short by a kink or the limit, it says nothing
   way_before_ = last_way_;
-  last_way_ = gone / kKind[kind_].series;
+  last_way_ = gone / series_cost();
   Pace& pace = paces_[kind_];
   pace.steps = std::min(pace.steps + 1, kPaceSteps);
-  pace.way += (gone / kKind[kind_].series - pace.way) / pace.steps;
+  pace.way += (gone / series_cost() - pace.way) / pace.steps;
 }
 
 void MethodChoice::settle_implicit(double gone, double longest, long evaluations) {

@@ -21,6 +21,9 @@ class MethodChoice {
   /// The contacts of the next step. The series go while nothing is known of how far they do in such contacts.
   void look_at(const ContactStates& contacts);
 
+  /// The series have been made with so many powers more than usual: what a step of them costs.
+  void note_powers(int more) { more_powers_ = more; }
+
   /// True when the next step in contact is an implicit one.
   bool implicit() const { return implicit_; }
 
@@ -28,8 +31,8 @@ class MethodChoice {
   /// ring of its base.
   bool may_pass_over() const { return may_pass_over_; }
 
-  /// True when that is worth trying, where the series would go `step` of at most `longest` without an event and the
-  /// normal forces would change by the share `change`.
+  /// True when that is worth trying, where series of the usual order would hold for `step` of at most `longest` without
+  /// an event and the normal forces would change by the share `change`.
   bool passing_over_pays(double step, double longest, double change) const;
 
   /// An implicit step is due that passes over the ring.
@@ -84,11 +87,13 @@ class MethodChoice {
   /// What the implicit step that is due is for.
   enum class Attempt { ordinary, easy_trial, trial, passes_over };
 
+  double series_cost() const;
   double pace() const;
   void book_implicit(double gain);
   void leave_to_series(int steps);
 
   std::size_t kind_ = 0;  ///< of the contacts of this step
+  int more_powers_ = 0;   ///< of the last series than usual
   std::array<Pace, kKinds> paces_;
   bool implicit_ = false;
   bool may_pass_over_ = true;

@@ -9,34 +9,6 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Series of a drive, to the power `order`: s' = (nu + rate t) c, c' = -(nu + rate t) s.
-void expand_drive(const DriveForm& form, int order, Series& series) {
-  double s = form.amplitude * form.sin_phase, c = form.amplitude * form.cos_phase, s_before = 0.0, c_before = 0.0;
-  if (form.amplitude == 0.0) {
-    std::fill(series.begin(), series.begin() + order + 1, 0.0);
-  } else if (form.rate == 0.0) {
-    for (int k = 0; k <= order; ++k) {
-      series[k] = s;
-      const double frequency = kInverse[k + 1] * form.frequency, s_next = frequency * c;
-      c = -(frequency * s);
-      s = s_next;
-    }
-  } else {
-    for (int k = 0; k <= order; ++k) {
-      series[k] = s;
-      const double frequency = kInverse[k + 1] * form.frequency, rate = kInverse[k + 1] * form.rate;
-      const double s_next = frequency * c + rate * c_before;
-      const double c_next = -(frequency * s + rate * s_before);
-      s_before = s;
-      c_before = c;
-      s = s_next;
-      c = c_next;
-    }
-  }
-  series[0] += form.constant;
-  series[1] += form.slope;
-}
-
 int point_index(Site site) { return (is_edge(site) ? 0 : 2) + pair_index(site); }
 
 /// k(n) d + h(n) d', power k.
@@ -73,26 +45,8 @@ void MotionSeries::start(const State& start, const DriveForms& drives, int order
   segment.y[1] = segment.vy[0] = start.vy;
   segment.phi[1] = segment.omega[0] = start.omega;
   restart(order, segment);
-  set_drives(drives, order, segment);
-}
-
-/// The forces of the excitations.
-void MotionSeries::set_drives(const DriveForms& drives, int order, Segment& segment) {
-  Series* const axes[] = {&segment.drive_x, &segment.drive_y, &segment.drive_phi};
-  bool known[] = {false, false, false};
-  for (int i = 0; i < drives.count; ++i) {
-    const auto axis = static_cast<std::size_t>(drives.direction[i]);
-    if (!known[axis]) {
-      expand_drive(drives.form[i], order, *axes[axis]);
-      known[axis] = true;
-      continue;
-    }
-    Series another;
-    expand_drive(drives.form[i], order, another);
-    for (int k = 0; k <= order; ++k) (*axes[axis])[k] += another[k];
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!known[axis]) std::fill(axes[axis]->begin(), axes[axis]->begin() + order + 1, 0.0);
+  drive_series_.begin(drives);
+  drive_series_.extend(order, segment);
 }
 
 /// Velocity of power k + 1 and position of power k + 2 from the forces of power k.
@@ -284,14 +238,13 @@ bool MotionSeries::goes_on(Segment& segment) {
   const int order = choice_->next_order(segment);
   if (order <= segment.order) return false;
   order_ = segment.order = order;
-  set_drives(*drives_, order, segment);
+  drive_series_.extend(order, segment);
   return true;
 }
 
 void MotionSeries::expand_contact(const State& start, const DriveForms& drives, int order, Segment& segment,
                                   OrderChoice* choice) {
   choice_ = choice;
-  drives_ = &drives;
   this->start(start, drives, order, segment);
   set_up_contacts(segment);
   if (segment.loaded_count == 1 && expand_single(segment)) return end_sticking(segment);

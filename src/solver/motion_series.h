@@ -8,34 +8,10 @@
 #include "mechanics/contact_frame.h"
 #include "mechanics/drive.h"
 #include "mechanics/holding_forces.h"
+#include "solver/drive_series.h"
 #include "solver/segment.h"
 
 namespace vibratory_alignment {
-
-/// Forces of the excitations as sums over the drives, per axis. Of the forms only the first `count` are made and
-/// copied: room for more costs nothing.
-struct DriveForms {
-  static constexpr int kMax = 16;
-  std::array<Direction, kMax> direction{};
-  union {
-    std::array<DriveForm, kMax> form;
-  };
-  int count = 0;
-
-  DriveForms() {}
-  DriveForms(const DriveForms& other) : direction(other.direction), count(other.count) { copy_forms(other); }
-  DriveForms& operator=(const DriveForms& other) {
-    direction = other.direction;
-    count = other.count;
-    copy_forms(other);
-    return *this;
-  }
-
- private:
-  void copy_forms(const DriveForms& other) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) form[i] = other.form[i];
-  }
-};
 
 /// Asked when the series of a step in contact are known to a power: to which power to go on, if to a higher one.
 class OrderChoice {
@@ -119,7 +95,6 @@ class MotionSeries {
 
   void restart(int order, Segment& segment);
   void start(const State& start, const DriveForms& drives, int order, Segment& segment);
-  static void set_drives(const DriveForms& drives, int order, Segment& segment);
   bool goes_on(Segment& segment);
   void set_up_contacts(Segment& segment);
   void trig_term(int k, Segment& segment);
@@ -154,7 +129,7 @@ class MotionSeries {
 
   const System& system_;
   OrderChoice* choice_ = nullptr;       ///< of the present step in contact
-  const DriveForms* drives_ = nullptr;  ///< likewise
+  DriveSeries drive_series_;
   int order_ = 0;
   int known_trig_ = 0;  ///< highest known power of cos and sin
   std::array<Contact, kSiteCount> contacts_;

@@ -76,18 +76,23 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
 
   // centre in body axes and point of an edge, point of a corner, of a power > 0 with these last terms
   const auto centre_of = [&](double c, double s, double x, double y) {
+    if (!kTurns) return Pair{c_0 * x + s_0 * y, c_0 * y - s_0 * x};
     const double along_c = centre[0] + c_0 * x + c * x_0, along_s = centre[1] + s_0 * x + s * x_0,
                  across_c = centre[2] + c_0 * y + c * y_0, across_s = centre[3] + s_0 * y + s * y_0;
     return Pair{along_c + across_s, across_c - along_s};
   };
-  const auto edge_at = [&](double c, double s, const Pair& of) { return Pair{l * c - of[0], -l * s - of[1]}; };
+  const auto edge_at = [&](double c, double s, const Pair& of) {
+    return kTurns ? Pair{l * c - of[0], -l * s - of[1]} : -of;
+  };
   const auto corner_at = [&](double c, double s, double x, double y) {
+    if (!kTurns) return Pair{x, y};
     return Pair{x + beta * c + b0 * s, y + beta * s - b0 * c};
   };
 
   direction_[0] = Pair{c_0, s_0};
   if (kEdge) centre_[0] = Pair{c_0 * x_0 + s_0 * y_0, c_0 * y_0 - s_0 * x_0};
-  point[0] = kEdge ? edge_at(c_0, s_0, centre_[0]) : corner_at(c_0, s_0, x_0, y_0);
+  point[0] = kEdge ? Pair{l * c_0 - centre_[0][0], -l * s_0 - centre_[0][1]}
+                   : Pair{x_0 + beta * c_0 + b0 * s_0, y_0 + beta * s_0 - b0 * c_0};
   series.depth[0] = along_n(depth_1, point[0][0], depth_2, point[0][1]) + f.offset;
   for (int k = 0;; ++k) {
     // direction, point and depth of the next power
@@ -103,8 +108,9 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     series.depth[n] = along_n(depth_1, point[n][0], depth_2, point[n][1]);
 
     // sums over what the powers before know
-    if (kEdge) push_moment[k] = along_push(-push_1, point[k][1], push_2, point[k][0]);
-    const double drag_moment = kEdge && kOwnT ? along_t(-drag_1, point[k][1], drag_2, point[k][0]) : 0.0;
+    if (kEdge && kTurns) push_moment[k] = along_push(-push_1, point[k][1], push_2, point[k][0]);
+    const bool levers = kEdge && kOwnT && (kTurns || k == 0);
+    const double drag_moment = levers ? along_t(-drag_1, point[k][1], drag_2, point[k][0]) : 0.0;
     if (k == 0) drag_moment_0 = kEdge ? drag_moment : drag_c_arm * c_0 + drag_s_arm * s_0;
     turn_push = centre = Quad{};
     Quad moments{}, layer{};
@@ -217,7 +223,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       const double own_c = -next_inverse * turn_push[1], own_s = next_inverse * turn_push[0];
       const Pair own =
           kEdge ? edge_at(own_c, own_s, centre_of(own_c, own_s, 0.0, 0.0)) : corner_at(own_c, own_s, 0.0, 0.0);
-      const double own_rate = (n * (n + 1)) * along_t(slip_1, own[0], slip_2, own[1]);
+      const double own_rate = kTurns ? (n * (n + 1)) * along_t(slip_1, own[0], slip_2, own[1]) : 0.0;
       const HoldingForces::Answer free{{}, fast_x * force_x, fast_y * force_y, fast_phi * turn};
       const HoldingForces::Answer held = holding_.hold_motion_of_one(free, own_rate);
       if (k == 0 && (!holding_.regular() || rounding_shows(free, held, segment))) return false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "solver/bernstein.h"
 #include "solver/solver.h"
 
 namespace vibratory_alignment {
@@ -11,11 +12,6 @@ namespace {
 
 /// Halvings after which an undecided interval is narrower than the resolution of a double.
 constexpr int kMaxHalvings = 52;
-
-/// Bounds of a polynomial on [0, 1].
-struct Range {
-  double low, high;
-};
 
 /// Two coefficients at a time from an even power on, as scale_to_unit() leaves them: read as they were written they
 /// need not wait in memory for one another. An odd last one alone.
@@ -100,41 +96,10 @@ double scale_to_unit(const Series& g, int order, double h, Series& unit) {
   return (std::max(unit[0], 0.0) + alone) + (low[0] + low[1]);
 }
 
-/// The left and right half of [0, 1], each as a polynomial on [0, 1].
-void left_half(const Series& g, int order, Series& half) { scale_to_unit(g, order, 0.5, half); }
-
-/// g(1 + t) by repeated synthetic division.
-template <int kOrder>
-void shift_by_one(Series& g) {
-  std::array<double, kOrder + 1> shifted;
-  std::copy(g.begin(), g.begin() + kOrder + 1, shifted.begin());
-  for (int i = 0; i < kOrder; ++i)
-    for (int k = kOrder - 1; k >= i; --k) shifted[k] += shifted[k + 1];
-  std::copy(shifted.begin(), shifted.end(), g.begin());
-}
-
-/// g((1 + t)/2). Loops of a length that is known beforehand take half the time.
-void right_half(const Series& g, int order, Series& half) {
-  scale_to_unit(g, order, 0.5, half);
-  const int padded_order = (order + 3) / 4 * 4;
-  std::fill(half.begin() + order + 1, half.begin() + padded_order + 1, 0.0);
-  switch (padded_order) {
-    case 4: return shift_by_one<4>(half);
-    case 8: return shift_by_one<8>(half);
-    case 12: return shift_by_one<12>(half);
-    case 16: return shift_by_one<16>(half);
-    case 20: return shift_by_one<20>(half);
-    default: return shift_by_one<kMaxOrder>(half);
-  }
-}
-
-/// Root of g on [0, 1], where g(0) > 0 > g(1) and g falls throughout: Halley's iteration kept inside a shrinking
-/// bracket. It converges with the third power, so a step this small leaves nothing to do.
-double falling_root(const Series& g, int order) {
+/// Root of g in (low, high), where it falls below zero once: Halley's iteration from t, kept inside a shrinking bracket.
+/// It converges with the third power, so a step this small leaves nothing to do.
+double falling_root(const Series& g, int order, double low, double high, double t) {
   constexpr double kLastStep = 1e-6;
-  double low = 0.0, high = 1.0;
-  const double total = std::max(-value_at(g, order, 1.0), 0.0) + g[0];
-  double t = g[0] / total;
   for (int i = 0; i < 100; ++i) {
     // value, slope and half the curvature
     double value = g[order], slope = 0.0, bend = 0.0;
@@ -155,27 +120,48 @@ double falling_root(const Series& g, int order) {
   return t;
 }
 
-double first_fall_on_unit(const Series& g, int order, int halvings);
+/// Part of [0, 1], with what a polynomial is on it.
+struct Part {
+  double start = 0.0, width = 1.0;
+  int halvings = 0;
+
+  double end() const { return start + width; }
+  Part left() const { return {start, 0.5 * width, halvings + 1}; }
+  Part right() const { return {start + 0.5 * width, 0.5 * width, halvings + 1}; }
+};
+
+/// First fall of g below zero on a part of [0, 1], on which it is `form` and starts above zero, or at zero and rises; or
+/// kNoRoot.
+double first_fall_on_part(const Series& g, int order, const BernsteinForm& form, const Part& part) {
+  const int changes = sign_changes(form);
+  if (changes == 0) return kNoRoot;
+  if (changes == 1)
+    return falling_root(g, order, part.start, part.end(), part.start + part.width * zero_of_coefficients(form));
+  if (part.halvings == kMaxHalvings) return form.at_end() < 0.0 ? part.end() : kNoRoot;
+  BernsteinForm left, right;
+  halve(form, left, right);
+  const double fall = first_fall_on_part(g, order, left, part.left());
+  if (fall != kNoRoot) return fall;
+  if (right.at_start() <= 0.0) return part.right().start;
+  return first_fall_on_part(g, order, right, part.right());
+}
 
 /// First fall below zero on [0, 1] of a polynomial with g(0) > 0 whose bounds leave room for one, or kNoRoot.
-double first_fall_within_bounds(const Series& g, int order, int halvings) {
+double first_fall_within_bounds(const Series& g, int order) {
   const Range slope = slope_on_unit(g, order);
   if (slope.low >= 0.0) return kNoRoot;
-  if (slope.high <= 0.0) return value_at(g, order, 1.0) < 0.0 ? falling_root(g, order) : kNoRoot;
-  if (halvings == kMaxHalvings) return value_at(g, order, 1.0) < 0.0 ? 1.0 : kNoRoot;
-  Series half;
-  left_half(g, order, half);
-  const double left = first_fall_on_unit(half, order, halvings + 1);
-  if (left != kNoRoot) return 0.5 * left;
-  right_half(g, order, half);
-  if (half[0] <= 0.0) return 0.5;
-  const double right = first_fall_on_unit(half, order, halvings + 1);
-  return right == kNoRoot ? kNoRoot : 0.5 + 0.5 * right;
+  if (slope.high <= 0.0) {
+    const double end = value_at(g, order, 1.0);
+    return end < 0.0 ? falling_root(g, order, 0.0, 1.0, g[0] / (g[0] - end)) : kNoRoot;
+  }
+  BernsteinForm form;
+  set_bernstein(g, order, form);
+  return first_fall_on_part(g, order, form, {});
 }
 
 /// First fall below zero on [0, 1] of a polynomial with g(0) > 0, or kNoRoot.
-double first_fall_on_unit(const Series& g, int order, int halvings) {
-  return range_on_unit(g, order).low > 0.0 ? kNoRoot : first_fall_within_bounds(g, order, halvings);
+double first_fall_on_unit(const Series& g, int order) {
+  return range_on_unit(g, order).low > 0.0 ? kNoRoot : first_fall_within_bounds(g, order);
 }
 
 /// Divides out `zeros` roots at t = 0.
@@ -184,10 +170,29 @@ int deflate(Series& g, int order, int zeros) {
   return order - zeros;
 }
 
-Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kMaxConditions>& orders, int halvings) {
+/// Conditions on a part of [0, 1].
+using Forms = std::array<BernsteinForm, kMaxConditions>;
+
+/// First rise of g above zero on a part of [0, 1], on which it is `form` and starts at or below zero, or kNoRoot.
+double first_rise_on_part(const Series& g, int order, const BernsteinForm& form, const Part& part) {
+  const auto* const first = std::find_if(form.b.begin(), form.b.begin() + form.degree + 1, [](double b) { return b != 0.0; });
+  if (*first > 0.0) return part.start;
+  Series negative;
+  BernsteinForm negative_form;
+  negative_form.degree = form.degree;
+  for (int k = 0; k <= order; ++k) {
+    negative[k] = -g[k];
+    negative_form.b[k] = -form.b[k];
+  }
+  return first_fall_on_part(negative, order, negative_form, part);
+}
+
+/// `g`: the conditions on all of [0, 1], to these orders; `forms`: on this part.
+Entry first_entry_on_part(const Conditions& g, const std::array<int, kMaxConditions>& orders, const Forms& forms,
+                          const Part& part) {
   int undecided = 0, last = 0;
-  for (int i = 0; i < conditions.count; ++i) {
-    const Range range = range_on_unit(conditions.g[i], orders[i]);
+  for (int i = 0; i < g.count; ++i) {
+    const Range range = range_of(forms[i]);
     if (range.high <= 0.0) return {};
     if (range.low <= 0.0) {
       ++undecided;
@@ -196,37 +201,25 @@ Entry first_entry_on_unit(const Conditions& conditions, const std::array<int, kM
   }
   if (undecided == 0) {
     // all hold from here on, the last of them by a last digit that it had not just before
-    for (int i = 1; i < conditions.count; ++i)
-      if (conditions.g[i][0] < conditions.g[last][0]) last = i;
-    return {0.0, last};
+    for (int i = 1; i < g.count; ++i)
+      if (forms[i].at_start() < forms[last].at_start()) last = i;
+    return {part.start, last};
   }
   if (undecided == 1) {
-    const Series& g = conditions.g[last];
-    if (g[0] > 0.0 && g[1] >= 0.0) return {0.0, last};
+    const BernsteinForm& form = forms[last];
+    if (form.at_start() > 0.0 && form.b[1] >= form.b[0]) return {part.start, last};
     // the first rise of the one undecided condition; one that starts true by a last digit, and falls, is halved away
-    if (g[0] <= 0.0) {
-      Series negative = g;
-      for (int k = 0; k <= orders[last]; ++k) negative[k] = -negative[k];
-      return {first_fall(negative, orders[last], 1.0, 0), last};
-    }
+    if (form.at_start() <= 0.0) return {first_rise_on_part(g.g[last], orders[last], form, part), last};
   }
-  if (halvings == kMaxHalvings) {
-    for (int i = 0; i < conditions.count; ++i)
-      if (value_at(conditions.g[i], orders[i], 1.0) <= 0.0) return {};
-    return {1.0, last};
+  if (part.halvings == kMaxHalvings) {
+    for (int i = 0; i < g.count; ++i)
+      if (forms[i].at_end() <= 0.0) return {};
+    return {part.end(), last};
   }
-  Conditions half;
-  half.count = conditions.count;
-  for (int i = 0; i < conditions.count; ++i) left_half(conditions.g[i], orders[i], half.g[i]);
-  Entry entry = first_entry_on_unit(half, orders, halvings + 1);
-  if (entry.time != kNoRoot) {
-    entry.time *= 0.5;
-    return entry;
-  }
-  for (int i = 0; i < conditions.count; ++i) right_half(conditions.g[i], orders[i], half.g[i]);
-  entry = first_entry_on_unit(half, orders, halvings + 1);
-  if (entry.time != kNoRoot) entry.time = 0.5 + 0.5 * entry.time;
-  return entry;
+  Forms left, right;
+  for (int i = 0; i < g.count; ++i) halve(forms[i], left[i], right[i]);
+  const Entry entry = first_entry_on_part(g, orders, left, part.left());
+  return entry.time != kNoRoot ? entry : first_entry_on_part(g, orders, right, part.right());
 }
 
 double time_of(double root_on_unit, double h) { return root_on_unit == kNoRoot ? kNoRoot : root_on_unit * h; }
@@ -238,14 +231,14 @@ double first_fall(const Series& g, int order, double h, int zeros_at_start) {
   const double low = scale_to_unit(g, order, h, unit);
   if (low > 0.0 && zeros_at_start == 0) return kNoRoot;
   require_finite(unit, order);
-  if (unit[0] > 0.0 && order > 0 && zeros_at_start == 0) return time_of(first_fall_within_bounds(unit, order, 0), h);
+  if (unit[0] > 0.0 && order > 0 && zeros_at_start == 0) return time_of(first_fall_within_bounds(unit, order), h);
   if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);
   if (unit[0] <= 0.0 && zeros_at_start == 0) order = deflate(unit, order, 1);
   // what starts at an exact zero is judged by its first coefficient that is not
   while (order > 0 && unit[0] == 0.0) order = deflate(unit, order, 1);
   if (unit[0] < 0.0) return 0.0;
   if (order == 0) return kNoRoot;
-  return time_of(first_fall_on_unit(unit, order, 0), h);
+  return time_of(first_fall_on_unit(unit, order), h);
 }
 
 bool stays_above_zero(const Series& g, int order, double h) {
@@ -253,16 +246,29 @@ bool stays_above_zero(const Series& g, int order, double h) {
   return scale_to_unit(g, order, h, unit) > 0.0;
 }
 
+bool stays_below(const Series& g, int order, double h, double level) {
+  Series unit;
+  scale_to_unit(g, order, h, unit);
+  BernsteinForm form;
+  set_bernstein(unit, order, form);
+  return range_of(form).high <= level && form.at_end() <= level;  // what is not a number is not below
+}
+
 Entry first_entry(const Conditions& conditions, int order, double h) {
   Conditions unit;
   unit.count = conditions.count;
   std::array<int, kMaxConditions> orders{};
+  Forms forms;
   for (int i = 0; i < conditions.count; ++i) {
     scale_to_unit(conditions.g[i], order, h, unit.g[i]);
     require_finite(unit.g[i], order);
     orders[i] = deflate(unit.g[i], order, conditions.zeros_at_start[i]);
   }
-  Entry entry = first_entry_on_unit(unit, orders, 0);
+  // mostly the powers show that one of them fails throughout
+  for (int i = 0; i < conditions.count; ++i)
+    if (range_on_unit(unit.g[i], orders[i]).high <= 0.0) return {};
+  for (int i = 0; i < conditions.count; ++i) set_bernstein(unit.g[i], orders[i], forms[i]);
+  Entry entry = first_entry_on_part(unit, orders, forms, {});
   // inside from the start: through the face on which the point lies
   if (entry.time == 0.0)
     for (int i = 0; i < conditions.count; ++i)

@@ -18,6 +18,10 @@ double first_fall(const Series& g, int order, double h, int zeros_at_start);
 /// True when bounds show that g stays above zero on [0, h]; false says nothing.
 bool stays_above_zero(const Series& g, int order, double h);
 
+/// True when bounds show that g stays at or below `level` on [0, h]; false says nothing. Closer, and dearer, than the
+/// bounds of stays_above_zero().
+bool stays_below(const Series& g, int order, double h, double level);
+
 constexpr int kMaxConditions = 6;
 
 /// Several polynomials that must all be positive.

@@ -8,7 +8,7 @@
 namespace vibratory_alignment {
 
 /// Highest power kept anywhere; two more places serve positions, which are known two orders ahead of forces.
-constexpr int kMaxOrder = 24;
+constexpr int kMaxOrder = 40;
 using Series = std::array<double, kMaxOrder + 3>;
 
 /// Two series side by side, for what comes in pairs: x and y, cos and sin. Summed two at a time by the processor.

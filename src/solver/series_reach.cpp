@@ -15,10 +15,24 @@ constexpr double kFar = 1.35;
 /// Powers by which series are made longer at a time, and in all.
 constexpr int kMorePowers = 2, kMostMorePowers = 4;
 
-/// Terms this large leave no room for those of higher powers.
-constexpr double kLarge = 1e150;
+/// Of a velocity: slower is at rest.
+constexpr double kNoTurn = 1e-60;
+
+/// Radians of the base that a step of straight motion goes: from a touch to beyond the release, and while the base
+/// rings.
+constexpr double kImpactRadians = 4.0, kRingRadians = 6.5;
+
+/// Terms this large leave no room for those of higher powers; and for those of twice as high ones.
+constexpr double kLarge = 1e150, kLargeByFar = 1e100;
 
 }  // namespace
+
+SeriesReach::SeriesReach(const System& system, double tolerance, double force_tolerance)
+    : system_(system),
+      tolerance_(tolerance),
+      force_tolerance_(force_tolerance),
+      impact_order_(straight_series_order(tolerance, kImpactRadians)),
+      ring_order_(straight_series_order(tolerance, kRingRadians)) {}
 
 /// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
 /// nears +-1 as exp(-2|V|/eps), whose series shows its terms only within a few eps.
@@ -43,22 +57,39 @@ double SeriesReach::time(const Segment& segment) const {
 }
 
 int SeriesReach::next_order(const Segment& segment) {
-  last_time_ = time(segment);
   const int order = segment.order;
+  const bool straight = order < ring_order_ && is_straight(segment);
+  if (straight && order < impact_order_) return rings_ ? ring_order_ : impact_order_;
+  last_time_ = time(segment);
   if (more_ == kMostMorePowers || order + kMorePowers > kMaxOrder - 2 || !may_go_on(segment)) return order;
   const double far = kFar * last_time_;
-  const bool near = far >= longest_ || ends_by(segment, far);
+  // N of a straight motion may have swung back by then
+  const bool near = far >= longest_ || ends_by(segment, far) || (straight && ends_by(segment, last_time_));
+  rings_ = !near;
+  if (!near && straight) return ring_order_;
   if (!near || ends_by(segment, last_time_)) return order;
   more_ += kMorePowers;
   return order + kMorePowers;
 }
 
+double SeriesReach::last_terms(const Segment& segment) {
+  return std::abs(segment.vx[segment.order]) + std::abs(segment.vy[segment.order]) +
+         std::abs(segment.omega[segment.order]);
+}
+
+/// True for a single contact, outside the tanh layer, of a part that does not turn: linear motion.
+bool SeriesReach::is_straight(const Segment& segment) const {
+  if (segment.loaded_count != 1 || slip_of(segment, segment.loaded[0]) == Slip::regularized) return false;
+  if (!(last_terms(segment) < kLargeByFar)) return false;
+  if (!system_.phi.moves) return true;
+  return std::all_of(segment.omega.begin(), segment.omega.begin() + segment.order + 1,
+                     [](double omega) { return std::abs(omega) < kNoTurn; });
+}
+
 /// True for a step that its series end, well within the range of numbers and outside the tanh layer: there steps are
 /// short for other reasons, and many.
 bool SeriesReach::may_go_on(const Segment& segment) const {
-  const double terms = std::abs(segment.vx[segment.order]) + std::abs(segment.vy[segment.order]) +
-                       std::abs(segment.omega[segment.order]);
-  if (!(last_time_ < longest_ && terms < kLarge)) return false;
+  if (!(last_time_ < longest_ && last_terms(segment) < kLarge)) return false;
   for (int i = 0; i < segment.loaded_count; ++i)
     if (slip_of(segment, segment.loaded[static_cast<std::size_t>(i)]) == Slip::regularized) return false;
   return true;

@@ -9,8 +9,7 @@ namespace vibratory_alignment {
 class SeriesReach : public OrderChoice {
  public:
   /// Truncation errors: of a step, relative to the motion, and of friction in the tanh layer, relative to its limit.
-  SeriesReach(const System& system, double tolerance, double force_tolerance)
-      : system_(system), tolerance_(tolerance), force_tolerance_(force_tolerance) {}
+  SeriesReach(const System& system, double tolerance, double force_tolerance);
 
   /// Time over which the series of the segment hold.
   double time(const Segment& segment) const;
@@ -29,13 +28,17 @@ class SeriesReach : public OrderChoice {
 
  private:
   double layer_step(const Segment& segment) const;
+  bool is_straight(const Segment& segment) const;
   bool may_go_on(const Segment& segment) const;
+  static double last_terms(const Segment& segment);
   bool ends_by(const Segment& segment, double time) const;
 
   const System& system_;
   double tolerance_, force_tolerance_;
+  int impact_order_, ring_order_;  ///< of straight motion
   double longest_ = 0.0, last_time_ = 0.0;
-  int more_ = 0;  ///< powers beyond those asked for at first
+  bool rings_ = false;  ///< nothing was near that would have ended the last step
+  int more_ = 0;        ///< powers beyond those asked for at first
 };
 
 }  // namespace vibratory_alignment

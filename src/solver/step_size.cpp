@@ -15,6 +15,10 @@ constexpr double kRest = 1e-60;
 /// Of a velocity, beside what the part's speed and the forces of the contacts would make it: forces that hold an axis
 /// leave it less than this of their rounding.
 constexpr double kHeld = 1e-20;
+/// Beyond it rounding is all that is left.
+constexpr int kMostOrder = 22;
+/// Of numbers about one.
+constexpr double kRounding = 1e-16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Base-2 logarithm of a normal positive number, good to 0.1: exponent and leading digits, read off its bits.
@@ -116,7 +120,16 @@ double pair_step(const PairSeries& series, int order, double tolerance) {
 
 int series_order(double tolerance) {
   const double digits = -std::log10(tolerance);
-  return std::clamp(static_cast<int>(std::ceil(7.0 + digits)), 8, kMaxOrder - 2);
+  return std::clamp(static_cast<int>(std::ceil(7.0 + digits)), 8, kMostOrder);
+}
+
+int straight_series_order(double tolerance, double radians) {
+  // terms grow to exp(radians) of what they sum to, and leave rounding of that
+  const double log_radians = std::log(std::min(radians, std::log(tolerance / kRounding)));
+  int order = series_order(tolerance);
+  // the last term of a ring is radians^order/order!
+  while (order < kMaxOrder - 2 && order * log_radians - std::lgamma(order + 1.0) > std::log(tolerance)) ++order;
+  return order;
 }
 
 }  // namespace vibratory_alignment

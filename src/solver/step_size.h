@@ -25,4 +25,9 @@ namespace vibratory_alignment {
 /// length.
 int series_order(double tolerance);
 
+/// Order at which the series of a ring hold for so many radians of it: for linear motion, of which a power costs a few
+/// products, however high. Where rounding of its terms would leave more than the tolerance, for fewer radians; but the
+/// order above at least.
+int straight_series_order(double tolerance, double radians);
+
 }  // namespace vibratory_alignment

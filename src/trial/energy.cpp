@@ -16,9 +16,11 @@ constexpr double kNodes[6] = {0.1252334085114689, 0.3678314989981802, 0.58731795
 constexpr double kWeights[6] = {0.2491470458134028, 0.2334925365383548, 0.2031674267230659,
                                 0.1600783285433462, 0.1069393259953184, 0.0471753363865118};
 
-/// Longest panel in radians of the flight's fastest motion: the products turn twice as fast. A series' step is one
-/// panel.
+/// Longest panel in radians of the flight's fastest motion: the products turn twice as fast.
 constexpr double kPanel = 2.0;
+
+/// Series of this order hold for a panel. Longer ones, of straight motion, hold for two.
+constexpr int kPanelOrder = 22;
 
 Load3 drive_at(const Segment& segment, double t) {
   if (segment.flight != nullptr) return segment.flight->drive_at(segment.flight_time + t);
@@ -46,7 +48,7 @@ void EnergyAccount::book(const Segment& segment) {
 
   const auto relaxations = relaxations_in(segment);
   const double rate = segment.flight ? segment.flight->rate(segment.flight_time) : 0.0;
-  const int panels = 1 + static_cast<int>(segment.duration * rate / kPanel);
+  const int panels = (segment.order > kPanelOrder ? 2 : 1) + static_cast<int>(segment.duration * rate / kPanel);
   const double half = 0.5 * segment.duration / panels;
   for (int panel = 0; panel < panels; ++panel)
     for (int i = 0; i < 12; ++i) {

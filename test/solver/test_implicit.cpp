@@ -170,7 +170,7 @@ TEST(Implicit, passes_over_a_ring_at_the_start_below_its_tolerance) {
   test::set_base(scene, kStiffness, 0.0);
   constexpr double kPeriods = kTime * 1e3 / 6.283;
   EXPECT_LT(run_with(scene, "implicit", 1e-4).counts.steps, 20);
-  EXPECT_GT(run_with(scene, "implicit", 1e-9).counts.steps, kPeriods);
+  EXPECT_GT(run_with(scene, "implicit", 1e-9).counts.steps, 0.5 * kPeriods);
 }
 
 // N swings between 1 - s and 1 + s times the press. Friction that holds at the one may not at the other: a ring is
@@ -185,7 +185,7 @@ TEST(Implicit, follows_a_ring_at_the_start_that_more_than_halves_or_doubles_a_fo
     scene.initial.y = scene.part.base_distance - (1.0 + share) * kPress / kStiffness;
     const long steps = run_with(scene, "implicit", 1e-4).counts.steps;
     if (share < -0.5)
-      EXPECT_GT(steps, kPeriods) << share;
+      EXPECT_GT(steps, 0.5 * kPeriods) << share;
     else
       EXPECT_LT(steps, 20) << share;
   }
@@ -713,7 +713,7 @@ TEST(Implicit, passes_over_a_ring_once_it_has_decayed_below_its_tolerance) {
     const double allowed = kLeft * kStepShare * tolerance * (speed + press_in_step);
     EXPECT_LT(speed, 1.5 * allowed) << tolerance;
     EXPECT_GT(speed, 0.2 * allowed) << tolerance;
-    EXPECT_EQ(simulation.segment().end_time(), 8.0) << tolerance;
+    EXPECT_DOUBLE_EQ(simulation.segment().end_time(), 8.0) << tolerance;
   }
 }
 

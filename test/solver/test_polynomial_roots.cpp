@@ -220,6 +220,25 @@ TEST(StaysAboveZero, is_not_said_of_what_is_not_a_number) {
     }
 }
 
+// N of a ring: what it says to stay below has no value above, and it says so where the level is a quarter beyond.
+TEST(StaysBelow, bounds_a_ring_closely) {
+  constexpr int kOrder = 34;
+  constexpr double kTime = 6.5;
+  for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
+    Series ring{};
+    double term = 0.5;  // 1 + cos(t + angle)/2
+    for (int k = 0; k <= kOrder; ++k) {
+      ring[static_cast<std::size_t>(k)] = term * std::cos(angle + 0.5 * M_PI * k);
+      term /= k + 1;
+    }
+    ring[0] += 1.0;
+    EXPECT_TRUE(stays_below(ring, kOrder, kTime, 1.65)) << angle;
+    EXPECT_FALSE(stays_below(ring, kOrder, kTime, 1.49)) << angle;
+    ring[20] = std::nan("");
+    EXPECT_FALSE(stays_below(ring, kOrder, kTime, 1e9)) << angle;
+  }
+}
+
 /// Where a polynomial with these sorted roots and this sign before the first is positive within [0, 1].
 std::vector<std::pair<double, double>> positive_parts(const std::vector<double>& roots, bool positive) {
   std::vector<std::pair<double, double>> parts;

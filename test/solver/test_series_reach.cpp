@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "../support/scenes.h"
+#include "solver/step_size.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -32,7 +33,7 @@ Series constant(double value) {
   return series;
 }
 
-/// One contact of a part that moves along x by cos(angle + t), with what limits it at zero when that is.
+/// One contact of a part that moves along x by cos(angle + t) and turns, with what limits it at zero when that is.
 struct Motion {
   System system = make_system(test::scene_of(test::plain));
   Segment segment;
@@ -41,6 +42,7 @@ struct Motion {
     const double f = system.friction;
     segment.order = kOrder;
     segment.vx = cosine(1.0, angle);
+    segment.omega = constant(1e-3);
     segment.contacts[0] = {Phase::loaded, Face::bottom, slip};
     segment.loaded_count = 1;
     ContactSeries& contact = segment.loaded[0];
@@ -137,6 +139,81 @@ TEST(SeriesReach, four_powers_at_most_are_added_in_a_step) {
     reach.begin(1.1 * reach.time(motion.segment));
     EXPECT_EQ(reach.next_order(motion.segment), order + 2 <= kMaxOrder - 2 ? order + 2 : order);
   }
+}
+
+/// The same, but it does not turn.
+Motion straight(Slip slip, double angle) {
+  Motion motion(slip, angle);
+  motion.segment.omega = constant(0.0);
+  return motion;
+}
+
+/// Time over which the series of a cosine hold, to the power `order`.
+double reach_of(double tolerance, int order) { return std::pow(tolerance * std::tgamma(order + 1.0), 1.0 / order); }
+
+TEST(SeriesReach, straight_orders_follow_a_ring_so_far) {
+  for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12})
+    for (const double radians : {3.0, 4.0, 6.5}) {
+      const int order = straight_series_order(tolerance, radians);
+      EXPECT_GE(reach_of(tolerance, order), radians) << tolerance;
+      EXPECT_TRUE(order == series_order(tolerance) || reach_of(tolerance, order - 1) < radians) << tolerance;
+    }
+  // terms of exp(radians) leave 1e-16 of that, which has to be below the tolerance
+  for (const double tolerance : {1e-13, 1e-14, 1e-15}) {
+    const int order = straight_series_order(tolerance, 6.5);
+    EXPECT_GE(order, series_order(tolerance));
+    if (order > series_order(tolerance)) {
+      EXPECT_LT(1e-16 * std::exp(reach_of(tolerance, order - 1)), tolerance);
+    }
+  }
+}
+
+// A motion without a turn gets the powers that go over an impact, and those that go over a ring where nothing is near.
+TEST(SeriesReach, straight_motion_goes_farther) {
+  const int impact = straight_series_order(kTolerance, 4.0), ring = straight_series_order(kTolerance, 6.5);
+  ASSERT_GT(impact, kOrder + 4);
+  ASSERT_GT(ring, impact + 4);
+  Motion motion = straight(Slip::none, 0.0);
+  motion.segment.loaded[0].normal_force[0] += 2.0;  // N = 2 + cos
+  SeriesReach reach(motion.system, kTolerance, kTolerance);
+  reach.begin(kForever);
+  EXPECT_EQ(reach.next_order(motion.segment), impact);
+  motion.segment.order = impact;
+  EXPECT_EQ(reach.next_order(motion.segment), ring);
+  motion.segment.order = ring;
+  EXPECT_EQ(reach.next_order(motion.segment), ring);
+  EXPECT_GT(reach.last_time(), 6.0);
+  // the next step begins with that
+  reach.begin(kForever);
+  motion.segment.order = kOrder;
+  EXPECT_EQ(reach.next_order(motion.segment), ring);
+  // an end of contact that is near takes no more powers than it needs
+  motion = straight(Slip::none, 0.0);
+  motion.segment.order = impact;
+  SeriesReach other(motion.system, kTolerance, kTolerance);
+  other.begin(kForever);
+  EXPECT_EQ(other.next_order(motion.segment), impact);
+}
+
+TEST(SeriesReach, what_makes_powers_dear_goes_as_ever) {
+  for (const double omega : {1e-3, 1e-50}) {
+    Motion motion = straight(Slip::none, 0.0);
+    motion.segment.omega[2] = omega;
+    EXPECT_EQ(next_order(motion, kForever), kOrder) << omega;
+  }
+  Motion two = straight(Slip::none, 0.0);
+  two.segment.contacts[1] = two.segment.contacts[0];
+  two.segment.loaded[1] = two.segment.loaded[0];
+  two.segment.loaded_count = 2;
+  EXPECT_EQ(next_order(two, kForever), kOrder);
+  Motion layer = straight(Slip::plus, 0.0);
+  layer.system.regularization = 10.0;
+  layer.segment.contacts[0].slip = Slip::regularized;
+  EXPECT_EQ(next_order(layer, kForever), kOrder);
+  // rates whose powers overflow
+  Motion fast = straight(Slip::none, 0.0);
+  for (double& term : fast.segment.vx) term *= 1e120;
+  EXPECT_EQ(next_order(fast, kForever), kOrder);
 }
 
 TEST(SeriesReach, nothing_is_added_in_the_tanh_layer) {
