@@ -15,6 +15,7 @@ struct FoundEvents {
   double time = kNoEvent;
   int count = 0;
   bool parts = false;  ///< sticking contacts have to move apart: their forces are at no limit
+  bool kink = false;   ///< an excitation has a kink at the same instant
   std::array<Event, kMaxEvents> events;
 
   static constexpr double kNoEvent = -1.0;
@@ -22,7 +23,7 @@ struct FoundEvents {
   void clear() {
     time = kNoEvent;
     count = 0;
-    parts = false;
+    parts = kink = false;
   }
 };
 

@@ -376,6 +376,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
   if (system_.recovery) recover(system_, segment_, next_mode_.recoveries);
   if (forms_known_) {
     set_forms(next_drives_, end, forms_);
+    found.kink = kink;
     apply_events(system_, segment_, forms_, friction_, found, next_mode_);
   } else if (mode_changes_ && segment_.duration > 0.0) {
     next_mode_.pins.fill(SitePins{});

@@ -47,6 +47,10 @@ Motions motions_of(const Segment& segment) { return {segment.begin, segment.end,
 /// A friction force this near to its limit, relative to it, is at the limit.
 constexpr double kAtLimit = 1e-2;
 
+/// What T exceeds its limit by beyond the end of a segment, after as long again, as a share of the limit: more is no
+/// rounding.
+constexpr double kClearly = 1e-3;
+
 bool is_instant(const System& system, const Segment& segment) {
   if (segment.duration > kInstant) return false;
   const State gain = gain_of(segment);
@@ -107,6 +111,23 @@ void pin_limit(const System& system, const Segment& segment, Site site, SitePins
   const double t = value_at(segment.loaded[i].tangential_force, segment.order - 1, segment.duration);
   const double most = system.friction * value_at(segment.loaded[i].normal_force, segment.order, segment.duration);
   if (std::abs(t) >= (1.0 - kAtLimit) * most) (t > 0.0 ? pins.hold_plus : pins.hold_minus) = 1;
+}
+
+/// True when T of the only contact runs through the limit that it has reached at the segment's end, so fast that it
+/// cannot stay within: no choice is left but to slide against it. Nothing else happens at that instant.
+bool breaks_clearly(const System& system, const Segment& segment, const FoundEvents& events, const SitePins& pins) {
+  if (segment.loaded_count != 1 || events.count != 1 || events.parts || events.kink) return false;
+  if ((pins.hold_plus > 0) == (pins.hold_minus > 0)) return false;
+  const ContactSeries& contact = segment.loaded[0];
+  const double sign = pins.hold_plus > 0 ? 1.0 : -1.0;
+  double most = 0.0, left_slope = 0.0, left = 0.0;
+  for (int k = segment.order - 1; k >= 0; --k) {
+    const double friction = system.friction * contact.normal_force[k];
+    most = most * segment.duration + friction;
+    left_slope = left_slope * segment.duration + left;
+    left = left * segment.duration + friction - sign * contact.tangential_force[k];
+  }
+  return -left_slope * segment.duration > kClearly * most;
 }
 
 /// A contact without base damping along its normal: N starts and ends at zero depth. So does it, but for nothing, where
@@ -181,8 +202,9 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         zero_slip[index] = true;
         if (contact.slip != Slip::stick) break;
         if (!events.parts) pin_limit(system, segment, site, pins);
-        if (segment.coarse && (pins.hold_plus > 0 || pins.hold_minus > 0)) {
-          // what N does at once, faster than the step, must not decide
+        // after an implicit step what N does at once, faster than the step, must not decide
+        if ((segment.coarse && (pins.hold_plus > 0 || pins.hold_minus > 0)) ||
+            breaks_clearly(system, segment, events, pins)) {
           contact.slip = pins.hold_plus > 0 ? Slip::minus : Slip::plus;
           pins.slip = 2;
           pins.hold_plus = pins.hold_minus = 0;
