@@ -18,9 +18,12 @@ constexpr int kMorePowers = 2, kMostMorePowers = 4;
 /// Of a velocity: slower is at rest.
 constexpr double kNoTurn = 1e-60;
 
-/// Radians of the base that a step of straight motion goes: from a touch to beyond the release, and while the base
-/// rings.
+/// Radians of the base that a step of straight motion goes: from a touch to beyond the release, and where nothing ends
+/// it.
 constexpr double kImpactRadians = 4.0, kRingRadians = 6.5;
+
+/// Powers more for a step of a part that turns where nothing ends it: each costs as many products as it is high.
+constexpr int kTurningPowers = 4;
 
 /// Terms this large leave no room for those of higher powers; and for those of twice as high ones.
 constexpr double kLarge = 1e150, kLargeByFar = 1e100;
@@ -31,8 +34,8 @@ SeriesReach::SeriesReach(const System& system, double tolerance, double force_to
     : system_(system),
       tolerance_(tolerance),
       force_tolerance_(force_tolerance),
-      impact_order_(straight_series_order(tolerance, kImpactRadians)),
-      ring_order_(straight_series_order(tolerance, kRingRadians)) {}
+      straight_{straight_series_order(tolerance, kImpactRadians), straight_series_order(tolerance, kRingRadians)},
+      turning_{0, series_order(tolerance) + kTurningPowers} {}
 
 /// tanh(V/eps) has poles at V = +-i pi/2 eps: no step may go beyond a part of the way to the nearest. Far from them it
 /// nears +-1 as exp(-2|V|/eps), whose series shows its terms only within a few eps.
@@ -58,15 +61,17 @@ double SeriesReach::time(const Segment& segment) const {
 
 int SeriesReach::next_order(const Segment& segment) {
   const int order = segment.order;
-  const bool straight = order < ring_order_ && is_straight(segment);
-  if (straight && order < impact_order_) return rings_ ? ring_order_ : impact_order_;
+  const Orders orders = orders_for(segment);
+  if (rings_ && order < orders.ring) return orders.ring;
+  if (order < orders.impact) return orders.impact;
   last_time_ = time(segment);
   if (more_ == kMostMorePowers || order + kMorePowers > kMaxOrder - 2 || !may_go_on(segment)) return order;
   const double far = kFar * last_time_;
-  // N of a straight motion may have swung back by then
-  const bool near = far >= longest_ || ends_by(segment, far) || (straight && ends_by(segment, last_time_));
+  // N of what goes on for radians may have swung back by then
+  const bool near =
+      far >= longest_ || ends_by(segment, far) || (order >= straight_.impact && ends_by(segment, last_time_));
   rings_ = !near;
-  if (!near && straight) return ring_order_;
+  if (!near && order < orders.ring) return orders.ring;
   if (!near || ends_by(segment, last_time_)) return order;
   more_ += kMorePowers;
   return order + kMorePowers;
@@ -77,13 +82,14 @@ double SeriesReach::last_terms(const Segment& segment) {
          std::abs(segment.omega[segment.order]);
 }
 
-/// True for a single contact, outside the tanh layer, of a part that does not turn: linear motion.
-bool SeriesReach::is_straight(const Segment& segment) const {
-  if (segment.loaded_count != 1 || slip_of(segment, segment.loaded[0]) == Slip::regularized) return false;
-  if (!(last_terms(segment) < kLargeByFar)) return false;
-  if (!system_.phi.moves) return true;
-  return std::all_of(segment.omega.begin(), segment.omega.begin() + segment.order + 1,
-                     [](double omega) { return std::abs(omega) < kNoTurn; });
+/// Those of a single contact outside the tanh layer; of others none but those asked for.
+SeriesReach::Orders SeriesReach::orders_for(const Segment& segment) const {
+  if (segment.loaded_count != 1 || slip_of(segment, segment.loaded[0]) == Slip::regularized) return {};
+  if (!(last_terms(segment) < kLargeByFar)) return {};
+  const bool straight =
+      !system_.phi.moves || std::all_of(segment.omega.begin(), segment.omega.begin() + segment.order + 1,
+                                        [](double omega) { return std::abs(omega) < kNoTurn; });
+  return straight ? straight_ : turning_;
 }
 
 /// True for a step that its series end, well within the range of numbers and outside the tanh layer: there steps are

@@ -27,15 +27,20 @@ class SeriesReach : public OrderChoice {
   double last_time() const { return last_time_; }
 
  private:
+  /// Powers of a step at the end of which it may end, as in an impact, and of one that nothing ends, as in a ring.
+  struct Orders {
+    int impact = 0, ring = 0;
+  };
+
   double layer_step(const Segment& segment) const;
-  bool is_straight(const Segment& segment) const;
+  Orders orders_for(const Segment& segment) const;
   bool may_go_on(const Segment& segment) const;
   static double last_terms(const Segment& segment);
   bool ends_by(const Segment& segment, double time) const;
 
   const System& system_;
   double tolerance_, force_tolerance_;
-  int impact_order_, ring_order_;  ///< of straight motion
+  Orders straight_, turning_;
   double longest_ = 0.0, last_time_ = 0.0;
   bool rings_ = false;  ///< nothing was near that would have ended the last step
   int more_ = 0;        ///< powers beyond those asked for at first
