@@ -25,9 +25,9 @@ constexpr Table kInverseBinomial = [] {
   return table;
 }();
 
-/// Numbers in blocks of four, of which every one becomes itself and the next one, times a factor, again and again: after
-/// j turns the first n - j + 1 of n + 1 count. Blocks of a number that is known beforehand stay in registers: to read
-/// from memory what has just been written across two blocks would take longer than the sums.
+/// Numbers in blocks of four, of which every one becomes itself and the next one, times a factor, again and again:
+/// after j turns the first n - j + 1 of n + 1 count. Blocks of a number that is known beforehand stay in registers: to
+/// read from memory what has just been written across two blocks would take longer than the sums.
 template <int kBlocks>
 struct Neighbours {
   Quad block[kBlocks];
@@ -94,8 +94,9 @@ void set_bernstein(const Series& g, int order, BernsteinForm& form) {
   for (int k = 0; k <= order; ++k) c[k] = g[k] * inverse[k];
   std::fill(c.begin() + order + 1, c.begin() + order / 4 * 4 + 4, 0.0);
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    with_blocks(order, [&](auto blocks) VIBRATORY_ALIGNMENT_INLINE_LAMBDA { sum_differences<blocks>(c, form); },
-                std::make_integer_sequence<int, kMostBlocks>());
+    with_blocks(
+        order, [&](auto blocks) VIBRATORY_ALIGNMENT_INLINE_LAMBDA { sum_differences<blocks>(c, form); },
+        std::make_integer_sequence<int, kMostBlocks>());
   });
 }
 
@@ -131,9 +132,9 @@ double zero_of_coefficients(const BernsteinForm& form) {
 void halve(const BernsteinForm& whole, BernsteinForm& left, BernsteinForm& right) {
   left.degree = right.degree = whole.degree;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    with_blocks(whole.degree,
-                [&](auto blocks) VIBRATORY_ALIGNMENT_INLINE_LAMBDA { halve_blocks<blocks>(whole, left, right); },
-                std::make_integer_sequence<int, kMostBlocks>());
+    with_blocks(
+        whole.degree, [&](auto blocks) VIBRATORY_ALIGNMENT_INLINE_LAMBDA { halve_blocks<blocks>(whole, left, right); },
+        std::make_integer_sequence<int, kMostBlocks>());
   });
 }
 

@@ -87,7 +87,8 @@ class Search {
   }
 
   /// Forces end most steps in contact: what is not certain as far as the step goes is looked for up to there only. True
-  /// when that is shorter than before. All searches but for the forces are as long, and the mirror image finds the same.
+  /// when that is shorter than before. All searches but for the forces are as long, and the mirror image finds the
+  /// same.
   bool shorten() {
     if (!(found_at_forces_ > 0.0 && found_at_forces_ < kShorter * duration_)) return false;
     duration_ = kSurelyLater * found_at_forces_;
@@ -105,7 +106,9 @@ class Search {
     for (int i = 0; i < drives_.count; ++i) {
       const DriveForm& form = drives_.form[i];
       const double most = std::abs(form.constant) + std::abs(form.slope) * duration_ + std::abs(form.amplitude);
-      (drives_.direction[i] == Direction::x ? force_x : drives_.direction[i] == Direction::y ? force_y : moment) += most;
+      (drives_.direction[i] == Direction::x   ? force_x
+       : drives_.direction[i] == Direction::y ? force_y
+                                              : moment) += most;
     }
     const Load3 terms = mean_accelerations();
     const double ax = bound_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x);

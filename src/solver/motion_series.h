@@ -128,7 +128,7 @@ class MotionSeries {
   bool expand_single_of(Segment& segment);
 
   const System& system_;
-  OrderChoice* choice_ = nullptr;       ///< of the present step in contact
+  OrderChoice* choice_ = nullptr;  ///< of the present step in contact
   DriveSeries drive_series_;
   int order_ = 0;
   int known_trig_ = 0;  ///< highest known power of cos and sin

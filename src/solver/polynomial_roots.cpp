@@ -96,8 +96,8 @@ double scale_to_unit(const Series& g, int order, double h, Series& unit) {
   return (std::max(unit[0], 0.0) + alone) + (low[0] + low[1]);
 }
 
-/// Root of g in (low, high), where it falls below zero once: Halley's iteration from t, kept inside a shrinking bracket.
-/// It converges with the third power, so a step this small leaves nothing to do.
+/// Root of g in (low, high), where it falls below zero once: Halley's iteration from t, kept inside a shrinking
+/// bracket. It converges with the third power, so a step this small leaves nothing to do.
 double falling_root(const Series& g, int order, double low, double high, double t) {
   constexpr double kLastStep = 1e-6;
   for (int i = 0; i < 100; ++i) {
@@ -130,8 +130,8 @@ struct Part {
   Part right() const { return {start + 0.5 * width, 0.5 * width, halvings + 1}; }
 };
 
-/// First fall of g below zero on a part of [0, 1], on which it is `form` and starts above zero, or at zero and rises; or
-/// kNoRoot.
+/// First fall of g below zero on a part of [0, 1], on which it is `form` and starts above zero, or at zero and rises;
+/// or kNoRoot.
 double first_fall_on_part(const Series& g, int order, const BernsteinForm& form, const Part& part) {
   const int changes = sign_changes(form);
   if (changes == 0) return kNoRoot;
@@ -175,7 +175,8 @@ using Forms = std::array<BernsteinForm, kMaxConditions>;
 
 /// First rise of g above zero on a part of [0, 1], on which it is `form` and starts at or below zero, or kNoRoot.
 double first_rise_on_part(const Series& g, int order, const BernsteinForm& form, const Part& part) {
-  const auto* const first = std::find_if(form.b.begin(), form.b.begin() + form.degree + 1, [](double b) { return b != 0.0; });
+  const auto* const first =
+      std::find_if(form.b.begin(), form.b.begin() + form.degree + 1, [](double b) { return b != 0.0; });
   if (*first > 0.0) return part.start;
   Series negative;
   BernsteinForm negative_form;

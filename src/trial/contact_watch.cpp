@@ -37,7 +37,8 @@ void ContactWatch::book_peaks(const Segment& segment) {
     // the maximum is looked for only where it can be a new one
     double bound = 0.0;
     for (int k = segment.order; k > 0; --k) bound = (bound + std::max(contact.normal_force[k], 0.0)) * segment.duration;
-    if (contact.normal_force[0] + bound <= peak || stays_below(contact.normal_force, segment.order, segment.duration, peak))
+    if (contact.normal_force[0] + bound <= peak ||
+        stays_below(contact.normal_force, segment.order, segment.duration, peak))
       continue;
     const double largest = largest_value(contact.normal_force, segment.order, 0.0, segment.duration);
     if (!std::isfinite(largest))

@@ -1,5 +1,5 @@
-// Bernstein coefficients against their definition in 113 bits, and what they say of ranges and zeros against polynomials
-// whose values and zeros are known.
+// Bernstein coefficients against their definition in 113 bits, and what they say of ranges and zeros against
+// polynomials whose values and zeros are known.
 #include "solver/bernstein.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,8 @@ TEST(Bernstein, halves_are_the_same_polynomial) {
     for (const double t : {0.0, 0.25, 0.625, 1.0}) {
       const double allowed = 40.0 * noise(g, order, 1.0);
       EXPECT_NEAR(static_cast<double>(value_of(left, t) - exact_value(g, order, 0.5 * t)), 0.0, allowed) << order;
-      EXPECT_NEAR(static_cast<double>(value_of(right, t) - exact_value(g, order, 0.5 + 0.5 * t)), 0.0, allowed) << order;
+      EXPECT_NEAR(static_cast<double>(value_of(right, t) - exact_value(g, order, 0.5 + 0.5 * t)), 0.0, allowed)
+          << order;
     }
     EXPECT_EQ(left.at_end(), right.at_start());
   }

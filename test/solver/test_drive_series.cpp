@@ -50,7 +50,8 @@ TEST(DriveSeries, sums_to_the_forces) {
 
 TEST(DriveSeries, is_the_same_in_one_go_and_in_several) {
   const auto whole = made_in(kAll, {kOrder});
-  for (const std::vector<int>& orders : {std::vector<int>{0, kOrder}, {1, 2, kOrder}, {14, 16, 18, kOrder}, {kOrder, kOrder}}) {
+  for (const std::vector<int>& orders :
+       {std::vector<int>{0, kOrder}, {1, 2, kOrder}, {14, 16, 18, kOrder}, {kOrder, kOrder}}) {
     const auto parts = made_in(kAll, orders);
     for (std::size_t k = 0; k <= kOrder; ++k) {
       EXPECT_EQ(parts->drive_x[k], whole->drive_x[k]) << k;

@@ -117,7 +117,10 @@ TEST(SeriesReach, powers_are_added_for_a_limit_of_friction) {
       motion = Motion(Slip::stick, kHalfPi - event);
       for (double& term : motion.segment.loaded[0].tangential_force) term *= sign;
       const double time = reach.time(motion.segment), actual = event / time;
-      EXPECT_EQ(next_order(motion, kForever), actual < 1.0 ? kOrder : actual < 1.35 ? kOrder + 2 : kWithoutEnd) << actual;
+      EXPECT_EQ(next_order(motion, kForever), actual < 1.0    ? kOrder
+                                              : actual < 1.35 ? kOrder + 2
+                                                              : kWithoutEnd)
+          << actual;
     }
 }
 
