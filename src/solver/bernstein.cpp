@@ -1,6 +1,7 @@
 #include "solver/bernstein.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -106,14 +107,17 @@ Range range_of(const BernsteinForm& form) {
 }
 
 int sign_changes(const BernsteinForm& form) {
-  int changes = 0;
-  double before = 0.0;
+  std::uint64_t signs = 0, after_zeros = 0;
+  int count = 0;
   for (int j = 0; j <= form.degree; ++j) {
-    const double b = form.b[j];
-    changes += b * before < 0.0;
-    if (b != 0.0) before = b < 0.0 ? -1.0 : 1.0;
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &form.b[j], sizeof bits);
+    if (form.b[j] == 0.0) continue;
+    signs |= (bits >> 63) << count;
+    after_zeros |= std::uint64_t{1} << count++;
   }
-  return changes;
+  // where the sign of one and the next one differ
+  return __builtin_popcountll((signs ^ (signs >> 1)) & (after_zeros >> 1));
 }
 
 double zero_of_coefficients(const BernsteinForm& form) {

@@ -51,24 +51,6 @@ Range range_on_unit(const Series& g, int order) {
   return range;
 }
 
-/// Bounds of the derivative on [0, 1].
-Range slope_on_unit(const Series& g, int order) {
-  Pair low{}, high{}, power{2.0, 3.0};
-  Range range{g[1], g[1]};
-  for_powers(
-      2, order,
-      [&](int k) {
-        const Pair term = pair_at(g, k) * power;
-        low += negative_part(term);
-        high += positive_part(term);
-        power += 2.0;
-      },
-      [&](int k) { (g[k] < 0.0 ? range.low : range.high) += k * g[k]; });
-  range.low += (low[0] + low[1]);
-  range.high += (high[0] + high[1]);
-  return range;
-}
-
 /// Numbers that are not finite decide no bound: without this check every half would be halved again.
 void require_finite(const Series& unit, int order) {
   double sum = 0.0;
@@ -146,22 +128,11 @@ double first_fall_on_part(const Series& g, int order, const BernsteinForm& form,
   return first_fall_on_part(g, order, right, part.right());
 }
 
-/// First fall below zero on [0, 1] of a polynomial with g(0) > 0 whose bounds leave room for one, or kNoRoot.
-double first_fall_within_bounds(const Series& g, int order) {
-  const Range slope = slope_on_unit(g, order);
-  if (slope.low >= 0.0) return kNoRoot;
-  if (slope.high <= 0.0) {
-    const double end = value_at(g, order, 1.0);
-    return end < 0.0 ? falling_root(g, order, 0.0, 1.0, g[0] / (g[0] - end)) : kNoRoot;
-  }
+/// First fall below zero on [0, 1] of a polynomial with g(0) > 0, or kNoRoot.
+double first_fall_on_unit(const Series& g, int order) {
   BernsteinForm form;
   set_bernstein(g, order, form);
   return first_fall_on_part(g, order, form, {});
-}
-
-/// First fall below zero on [0, 1] of a polynomial with g(0) > 0, or kNoRoot.
-double first_fall_on_unit(const Series& g, int order) {
-  return range_on_unit(g, order).low > 0.0 ? kNoRoot : first_fall_within_bounds(g, order);
 }
 
 /// Divides out `zeros` roots at t = 0.
@@ -232,7 +203,6 @@ double first_fall(const Series& g, int order, double h, int zeros_at_start) {
   const double low = scale_to_unit(g, order, h, unit);
   if (low > 0.0 && zeros_at_start == 0) return kNoRoot;
   require_finite(unit, order);
-  if (unit[0] > 0.0 && order > 0 && zeros_at_start == 0) return time_of(first_fall_within_bounds(unit, order), h);
   if (zeros_at_start > 0) order = deflate(unit, order, zeros_at_start);
   if (unit[0] <= 0.0 && zeros_at_start == 0) order = deflate(unit, order, 1);
   // what starts at an exact zero is judged by its first coefficient that is not
