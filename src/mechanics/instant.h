@@ -2,6 +2,9 @@
 // long runs: the sum of two doubles, |low| <= ulp(high)/2.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace vibratory_alignment {
 
 struct Instant {
@@ -29,5 +32,12 @@ inline double operator-(const Instant& later, const Instant& earlier) {
 }
 
 inline double operator-(double later, const Instant& earlier) { return (later - earlier.high) - earlier.low; }
+
+/// Time from `now` to `end`, 0 when that is over: added to `now` it makes the double `end` to the last bit.
+inline double time_to(double end, const Instant& now) {
+  const double time = std::max(0.0, end - now), reached = (now + time).value();
+  if (time == 0.0 || reached == end) return time;
+  return std::nextafter(time, reached < end ? HUGE_VAL : 0.0);
+}
 
 }  // namespace vibratory_alignment

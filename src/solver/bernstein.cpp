@@ -125,7 +125,8 @@ double zero_of_coefficients(const BernsteinForm& form) {
   int last = 0;  // the last one that is not zero
   for (int j = 0; j <= form.degree; ++j) {
     const double b = form.b[j];
-    if (b * before < 0.0) return (last + (j - last) * before / (before - b)) / form.degree;
+    if ((b < 0.0 && before > 0.0) || (b > 0.0 && before < 0.0))
+      return (last + (j - last) * before / (before - b)) / form.degree;
     if (b == 0.0) continue;
     before = b;
     last = j;

@@ -28,8 +28,8 @@ void set_bernstein(const Series& g, int order, BernsteinForm& form);
 
 Range range_of(const BernsteinForm& form);
 
-/// Changes of sign from each coefficient to the next, zeros left out: 0 where g has no zero in (0, 1), 1 where it has
-/// one.
+/// Changes of sign from each coefficient to the next, zeros left out. Of none g has no zero in (0, 1), of one it has
+/// one; of more it may have as many, or fewer by an even number.
 int sign_changes(const BernsteinForm& form);
 
 /// Where the line through the coefficients, b_j at j/n, first changes its sign: near a zero. `form` has such a change.

@@ -334,7 +334,7 @@ class Search {
       time += contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() / slope;
       if (!(std::abs(time - found) <= kMostReloadCorrection * found)) return found;
     }
-    return std::min(time, duration_);
+    return std::min(time, segment_.duration);
   }
 
   void guard_unloaded(Site site) {
@@ -343,18 +343,18 @@ class Search {
     const ContactFrame frame = contact_frame(system_, face);
     const RegionCondition depth{frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face};
     const Series d = condition_series(depth, site);
-    offer(first_fall(d, order_, duration_, 0), EventKind::close, site, face);
+    offer(first_fall(d, order_, segment_.duration, 0), EventKind::close, site, face);
     // what would push: k d + h d', or with a base that recovers the part catching up with it
     Series g;
     if (system_.recovery) {
       g = d;
       subtract_recovery(recoveries_[index], g);
       for (int k = 0; k <= order_; ++k) g[k] = -g[k];
-      offer(first_fall(g, order_, duration_, pins_[index].normal), EventKind::reload, site);
+      offer(first_fall(g, order_, segment_.duration, pins_[index].normal), EventKind::reload, site);
     } else {
       series_.push_series(segment_, face, d, g);
       for (int k = 0; k < order_; ++k) g[k] = -g[k];
-      const double time = first_fall(g, order_ - 1, duration_, pins_[index].normal);
+      const double time = first_fall(g, order_ - 1, segment_.duration, pins_[index].normal);
       const bool turning = is_part_face(face) && !system_.isotropic;
       const bool corrects = (turning || segment_.coarse) && time > 0.0;
       offer(corrects ? reload_time(time, site, face, g) : time, EventKind::reload, site);
@@ -433,7 +433,7 @@ class Search {
     const Region region = site_region(system_, site, half);
     for (int j = 0; j < region.count; ++j) {
       const RegionCondition& condition = region.conditions[j];
-      offer(first_fall(condition_series(condition, site), order_, duration_, 0), EventKind::leave, site,
+      offer(first_fall(condition_series(condition, site), order_, segment_.duration, 0), EventKind::leave, site,
             condition.face);
     }
   }

@@ -337,7 +337,7 @@ const Segment& EventSolver::advance(double limit) {
     start();
   if (++counts_.steps > step_limit_) throw SolverFailure("step limit of " + std::to_string(step_limit_) + " reached");
 
-  const double to_limit = std::max(0.0, limit - now_), to_kink = time_to_kink(drives_, now_);
+  const double to_limit = time_to(limit, now_), to_kink = time_to_kink(drives_, now_);
   const double longest = std::min(to_limit, to_kink);
   const bool contact = any_loaded(mode_.contacts);
   begin_segment(contact);

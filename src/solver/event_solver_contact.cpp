@@ -70,10 +70,13 @@ bool EventSolver::must_part() const {
 double EventSolver::expand_contact(double longest, const DriveForms& drives) {
   reach_.begin(longest);
   series_.expand_contact(state_, drives, contact_order_, segment_, &reach_);
-  choice_.note_powers(segment_.order - contact_order_);
-  if (last_terms(segment_) < kNearOverflow) return reach_.last_time();
+  if (last_terms(segment_) < kNearOverflow) {
+    choice_.note_powers(segment_.order - contact_order_);
+    return reach_.last_time();
+  }
   // rates so high that their powers overflow
   series_.expand_contact(state_, drives, kLowOrder, segment_);
+  choice_.note_powers(0);
   return reach_.time(segment_);
 }
 
@@ -164,7 +167,7 @@ void EventSolver::ring() {
 /// How far the series of the last step would hold with the usual number of powers.
 double EventSolver::usual_reach() {
   const int order = segment_.order;
-  segment_.order = contact_order_;
+  segment_.order = std::min(order, contact_order_);
   const double reach = reach_.time(segment_);
   segment_.order = order;
   return reach;

@@ -51,7 +51,7 @@ const Segment& FixedStepSolver::advance(double limit) {
   started_ = true;
   if (++counts_.steps > step_limit_) throw SolverFailure("step limit of " + std::to_string(step_limit_) + " reached");
 
-  const double to_limit = std::max(0.0, limit - now_);
+  const double to_limit = time_to(limit, now_);
   double duration = planned_;
   if (to_limit <= (1.0 + kSliver) * duration) duration = to_limit;
 

@@ -208,7 +208,7 @@ double first_fall(const Series& g, int order, double h, int zeros_at_start) {
   // what starts at an exact zero is judged by its first coefficient that is not
   while (order > 0 && unit[0] == 0.0) order = deflate(unit, order, 1);
   if (unit[0] < 0.0) return 0.0;
-  if (order == 0 || (zeros_at_start > 0 && range_on_unit(unit, order).low > 0.0)) return kNoRoot;
+  if (order <= 0 || (zeros_at_start > 0 && range_on_unit(unit, order).low > 0.0)) return kNoRoot;
   return time_of(first_fall_on_unit(unit, order), h);
 }
 

@@ -31,11 +31,11 @@ class RingWatch {
 
  private:
   bool series_follow_ = false;
-  bool first_ = false;         ///< the implicit step that is due is the first one after steps of the series
-  double series_step_ = 0.0;   ///< last step of the series; 0 before there was one
-  int short_steps_ = 0;        ///< implicit steps in a row that followed the base
-  int most_short_steps_ = 2;   ///< of these, before the series follow instead
-  int steps_ = 0, wait_ = 0;   ///< of the series since an implicit step was given up, and before the next one
+  bool first_ = false;        ///< the implicit step that is due is the first one after steps of the series
+  double series_step_ = 0.0;  ///< last step of the series; 0 before there was one
+  int short_steps_ = 0;       ///< implicit steps in a row that followed the base
+  int most_short_steps_ = 2;  ///< of these, before the series follow instead
+  int steps_ = 0, wait_ = 0;  ///< of the series since an implicit step was given up, and before the next one
 };
 
 }  // namespace vibratory_alignment

@@ -65,14 +65,15 @@ int SeriesReach::next_order(const Segment& segment) {
   if (rings_ && order < orders.ring) return orders.ring;
   if (order < orders.impact) return orders.impact;
   last_time_ = time(segment);
-  if (more_ == kMostMorePowers || order + kMorePowers > kMaxOrder - 2 || !may_go_on(segment)) return order;
+  if (!may_go_on(segment)) return order;
   const double far = kFar * last_time_;
   // N of what goes on for radians may have swung back by then
   const bool near =
       far >= longest_ || ends_by(segment, far) || (order >= straight_.impact && ends_by(segment, last_time_));
   rings_ = !near;
   if (!near && order < orders.ring) return orders.ring;
-  if (!near || ends_by(segment, last_time_)) return order;
+  const bool room = more_ < kMostMorePowers && order + kMorePowers <= kMaxOrder - 2;
+  if (!near || !room || ends_by(segment, last_time_)) return order;
   more_ += kMorePowers;
   return order + kMorePowers;
 }

@@ -42,7 +42,7 @@ class SeriesReach : public OrderChoice {
   double tolerance_, force_tolerance_;
   Orders straight_, turning_;
   double longest_ = 0.0, last_time_ = 0.0;
-  bool rings_ = false;  ///< nothing was near that would have ended the last step
+  bool rings_ = false;  ///< nothing was near that would have ended the last step of which that was asked
   int more_ = 0;        ///< powers beyond those asked for at first
 };
 

@@ -57,12 +57,13 @@ TEST_F(DoctoredSegment, with_a_base_force_that_depth_and_rate_do_not_make) {
   expect_broken(Invariant::base_pushes);
 }
 
-// At the end the last term is 0.3 % of N: three times what a series that is cut off may lack.
+// At the end the last term is 0.3 % of all: three times what a series that is cut off may lack.
 TEST_F(DoctoredSegment, with_a_base_force_whose_last_terms_are_too_large) {
   Series& force = segment_.loaded[0].normal_force;
   const double h = segment_.duration;
-  force[static_cast<std::size_t>(segment_.order)] +=
-      3e-3 * value_at(force, segment_.order, h) / std::pow(h, segment_.order);
+  double terms = 0.0;
+  for (int k = segment_.order; k >= 0; --k) terms = terms * h + std::abs(force[static_cast<std::size_t>(k)]);
+  force[static_cast<std::size_t>(segment_.order)] += 3e-3 * terms / std::pow(h, segment_.order);
   expect_broken(Invariant::base_pushes);
 }
 

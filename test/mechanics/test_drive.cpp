@@ -53,6 +53,18 @@ Instant go_to(Drive& drive, Instant now, double t) {
   }
 }
 
+// Limits of trials and times of outputs are met to the last bit, from wherever a step starts.
+TEST(Instant, goes_to_a_time_to_the_last_bit) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (int i = 0; i < 200'000; ++i) {
+    const Instant now = (Instant{} + u(random)) + 1e-3 * u(random);
+    const double end = now.value() + u(random) * std::pow(10.0, -12.0 * u(random));
+    ASSERT_EQ((now + time_to(end, now)).value(), end) << i;
+  }
+  EXPECT_EQ(time_to(1.0, Instant{} + 2.0), 0.0);
+}
+
 TEST(Instant, adds_up_without_loss) {
   Instant t;
   Quad exact = 0;

@@ -713,7 +713,7 @@ TEST(Implicit, passes_over_a_ring_once_it_has_decayed_below_its_tolerance) {
     const double allowed = kLeft * kStepShare * tolerance * (speed + press_in_step);
     EXPECT_LT(speed, 1.5 * allowed) << tolerance;
     EXPECT_GT(speed, 0.2 * allowed) << tolerance;
-    EXPECT_DOUBLE_EQ(simulation.segment().end_time(), 8.0) << tolerance;
+    EXPECT_EQ(simulation.segment().end_time(), 8.0) << tolerance;
   }
 }
 

@@ -213,12 +213,12 @@ TEST(CalibrationThatAdapts, goes_on_from_what_it_knows) {
   EXPECT_EQ(known.size(), whole.evaluations);
 }
 
-/// From v = 2.5 the own blow falls short as well, and is hardly adapted. So a candidate that is worse in the slow one,
+/// From v = 2.4 the own blow falls short as well, and is hardly adapted. So a candidate that is worse in the slow one,
 /// which is judged first, could still be better than the best set: with room it is looked at whole, without it is not.
 TEST(CalibrationThatAdapts, gives_up_what_is_worse_by_more_than_the_room) {
   const auto evaluations = [](const std::string& room) {
     std::string text = two_blows("adapt: {reach: 0.001, evaluations: 5, room: " + room + "}, ");
-    text.replace(text.find("start: 2}"), 9, "start: 2.5}");
+    text.replace(text.find("start: 2}"), 9, "start: 2.4}");
     text.replace(text.find("shared_evaluations: 40"), 22, "shared_evaluations: 3");  // the start, more C1, and less
     text.replace(text.find("own_evaluations: 40"), 19, "own_evaluations: 1");
     return run_two_blows(text).evaluations;
