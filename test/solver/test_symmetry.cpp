@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "../support/random_scenes.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "mechanics/site_rules.h"
+#include "solver/contact_events.h"
+#include "solver/step_size.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -62,6 +66,55 @@ excitation: {amplitude: 1.0, frequency: 19.0}
 initial: {x: 0.0, y: 1.1, phi: 0.0}
 trial: {time_limit: 20.0, inserted_depth: 0.3}
 )";
+
+/// Contacts of a state, of which those that are loaded slide.
+ContactStates contacts_of(const System& system, const State& state) {
+  ContactStates contacts;
+  place_contacts(system, state, contacts);
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    if (contacts[i].phase != Phase::loaded) continue;
+    const ContactKinematics k = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
+    contacts[i].slip = k.slip_velocity > 0.0 ? Slip::plus : Slip::minus;
+  }
+  return contacts;
+}
+
+long count_of(const ContactStates& contacts, Phase phase) {
+  return std::count_if(contacts.begin(), contacts.end(), [&](const ContactState& c) { return c.phase == phase; });
+}
+
+// Of one contact that is loaded and others that are no longer: whichever site is met first, the first event has the
+// same digits.
+TEST(Symmetry, events_beside_a_loaded_contact_are_alike_bit_for_bit) {
+  const System system = make_system(test::scene_of(straight, {"slot.clearance=0.004", "slot.depth=3.0"}));
+  MotionSeries series(system);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int seen = 0, closed = 0;
+  for (int i = 0; i < 2'000'000 && seen < 8000; ++i) {
+    const State right{0.006 * u(random), 0.5 + 0.1 * u(random), 0.006 * u(random),
+                      0.3 * u(random),   0.3 * u(random),       0.3 * u(random)};
+    const ContactStates contacts = contacts_of(system, right);
+    if (count_of(contacts, Phase::loaded) != 1 || count_of(contacts, Phase::unloaded) == 0) continue;
+    ++seen;
+    FoundEvents found[2];
+    for (const bool left : {false, true}) {
+      Segment segment;
+      segment.begin = left ? mirrored(right) : right;
+      segment.contacts = contacts_of(system, segment.begin);
+      const DriveForms none;
+      series.expand_contact(segment.begin, none, 18, segment);
+      segment.duration = series_step(system, segment, 1e-11);
+      find_events(system, series, segment, {}, {}, {}, none, found[left ? 1 : 0]);
+    }
+    ASSERT_EQ(found[0].count, found[1].count) << i;
+    ASSERT_EQ(found[0].time, found[1].time) << i;
+    if (found[0].count == 0) continue;
+    EXPECT_EQ(found[0].events[0].site, twin(found[1].events[0].site)) << i;
+    closed += found[0].events[0].kind == EventKind::close;
+  }
+  EXPECT_GT(closed, 100);
+}
 
 // Two corners of an almost level part touch the floor at times that count as one: which comes first must not matter.
 TEST(Symmetry, a_touch_of_two_corners_and_its_mirror_image_are_alike_bit_for_bit) {
