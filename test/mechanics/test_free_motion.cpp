@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/drive_forms.h"
 #include "../support/lone_motion.h"
 #include "../support/quad.h"
 
@@ -17,26 +18,12 @@ namespace {
 
 using test::Quad;
 using test::QuadMatrix;
+using test::ramp;
+using test::sine;
 
 struct Motion {
   double q, v, a;
 };
-
-DriveForm constant(double value, double slope = 0.0) {
-  DriveForm form;
-  form.constant = value;
-  form.slope = slope;
-  return form;
-}
-
-DriveForm sine(double amplitude, double frequency, double phase) {
-  DriveForm form;
-  form.amplitude = amplitude;
-  form.frequency = frequency;
-  form.sin_phase = std::sin(phase);
-  form.cos_phase = std::cos(phase);
-  return form;
-}
 
 /// m v' = constant + slope t + sum of sines - h v - k (q - anchor), solved as z' = A z.
 Motion exponential_solution(const Axis& axis, double q, double v, double force, const std::vector<DriveForm>& forms,
@@ -86,11 +73,11 @@ struct Load {
 const std::vector<Load>& loads() {
   static const std::vector<Load> all = {
       {"free", {}, 0.0},
-      {"constant force", {constant(0.7)}, -0.3},
-      {"growing force", {constant(-0.4, 1.3)}, 0.0},
+      {"constant force", {ramp(0.7)}, -0.3},
+      {"growing force", {ramp(-0.4, 1.3)}, 0.0},
       {"one sine", {sine(1.0, 20.0, 0.4)}, 0.0},
       {"sines, slope and weight",
-       {sine(1.0, 20.0, 0.4), sine(-0.3, 7.7, 2.0), sine(0.2, 0.31, -1.0), constant(0.2, -0.6)},
+       {sine(1.0, 20.0, 0.4), sine(-0.3, 7.7, 2.0), sine(0.2, 0.31, -1.0), ramp(0.2, -0.6)},
        -0.5},
   };
   return all;
@@ -220,13 +207,13 @@ TEST(FreeMotion, stays_exact_where_no_digits_are_lost) {
   EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.05, 4.0, 0.0), sine(1.0, 2.0, 0.3)));
   EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.0, 4.0, 0.0), sine(1.0, 2.02, 0.3)));
   EXPECT_TRUE(claims_exact(test::axis_of(0.149, 1.33, 7.3, 0.0), sine(1.0, 20.0, 0.0)));
-  EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.05, 0.05, 0.2), constant(1.0)));
+  EXPECT_TRUE(claims_exact(test::axis_of(1.0, 0.05, 0.05, 0.2), ramp(1.0)));
 }
 
 TEST(FreeMotion, steps_back_where_the_equilibrium_is_far_away) {
-  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 1e-9, 0.0), constant(1.0)));
-  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 1e-9, 0.0, 0.0), constant(1.0)));
-  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 1e-9, 0.0), constant(0.0), -0.3));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 1e-9, 0.0), ramp(1.0)));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 1e-9, 0.0, 0.0), ramp(1.0)));
+  EXPECT_FALSE(claims_exact(test::axis_of(1.0, 0.0, 1e-9, 0.0), ramp(0.0), -0.3));
 }
 
 TEST(FreeMotion, steps_back_during_a_chirp) {
@@ -278,7 +265,7 @@ TEST(FreeMotion, starts_where_it_starts) {
         test::LoneMotion motion(2);
         motion.begin(axis, q0, v0, u(random));
         motion.add(sine(10.0 * u(random), nu, 3.0 * u(random)));
-        motion.add(constant(u(random), u(random)));
+        motion.add(ramp(u(random), u(random)));
         motion.settle();
         if (!motion.exact()) continue;
         ++exact;
@@ -296,7 +283,7 @@ TEST(FreeMotion, begins_anew) {
   test::LoneMotion used(2), fresh(2);
   used.begin(test::axis_of(1.0, 0.0, 0.0, 0.0), 5.0, 1.0, 2.0);
   used.add(sine(1.0, 3.0, 1.0));
-  used.add(constant(0.3, 0.4));
+  used.add(ramp(0.3, 0.4));
   used.settle();
   for (test::LoneMotion* motion : {&used, &fresh}) {
     motion->begin(axis, 0.83, -0.37, -0.2);

@@ -5,11 +5,15 @@
 
 #include <cmath>
 
+#include "../support/drive_forms.h"
 #include "../support/scenes.h"
 #include "solver/motion_series.h"
 
 namespace vibratory_alignment {
 namespace {
+
+using test::ramp;
+using test::sine;
 
 constexpr auto kSite = static_cast<std::size_t>(Site::a1);
 
@@ -23,22 +27,6 @@ DriveForms pull(DriveForm form, double limit) {
   drives.direction[0] = Direction::x;
   drives.form[0] = form;
   return drives;
-}
-
-DriveForm ramp(double constant, double slope) {
-  DriveForm form;
-  form.constant = constant;
-  form.slope = slope;
-  return form;
-}
-
-DriveForm sine(double amplitude, double frequency, double phase) {
-  DriveForm form;
-  form.amplitude = amplitude;
-  form.frequency = frequency;
-  form.sin_phase = std::sin(phase);
-  form.cos_phase = std::cos(phase);
-  return form;
 }
 
 /// The law of friction and the pins after the block has stuck for `duration` under `before`, and a slip event.
