@@ -40,6 +40,7 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
   Octet fx = drive.x - system.x.damping * q.vx - system.x.stiffness * (q.x - system.x.anchor);
   Octet fy = drive.y - system.y.damping * q.vy - system.y.stiffness * (q.y - system.y.anchor) - system.weight;
   Octet moment = drive.phi - system.phi.damping * q.omega - system.phi.stiffness * (q.phi - system.phi.anchor);
+  const double friction = system.friction, layer = system.regularization;
   Octet c, s;
   tilts_of(q.phi, c, s);
   int sticking_count = 0;
@@ -73,14 +74,14 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
                          along_normal(contact.face, c, s, system.damping_x, system.damping_y) * depth_rate;
     Octet ratio = 0.0;
     switch (contact.slip) {
-      case Slip::plus: ratio = -system.friction; break;
-      case Slip::minus: ratio = system.friction; break;
+      case Slip::plus: ratio = -friction; break;
+      case Slip::minus: ratio = friction; break;
       case Slip::regularized: {
-        const Octet share = slip_velocity / system.regularization;
+        const Octet share = slip_velocity / layer;
         Octet tanh;
         tanh_of(share.low, tanh.low);
         tanh_of(share.high, tanh.high);
-        ratio = -system.friction * tanh;
+        ratio = -friction * tanh;
         break;
       }
       case Slip::stick: {
