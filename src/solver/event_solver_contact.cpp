@@ -202,6 +202,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
   if (choice_.implicit()) {
     evaluations_before_ = counts_.rhs_evaluations;
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
+    follows_base_ = step < longest && implicit_.follows_base(step, drives);
     if (step > 0.0) return step;
     choice_.give_up_implicit(spent());
   }
@@ -301,7 +302,7 @@ long EventSolver::spent() const { return counts_.rhs_evaluations - evaluations_b
 /// is gone again.
 void EventSolver::settle(double gone, double longest) {
   if (choice_.implicit())
-    choice_.settle_implicit(gone, longest, spent());
+    choice_.settle_implicit(gone, longest, spent(), follows_base_);
   else
     choice_.settle_series(gone, longest);
 }

@@ -209,7 +209,7 @@ void MethodChoice::settle_series(double gone, double longest) {
   pace.way += (gone / series_cost() - pace.way) / pace.steps;
 }
 
-void MethodChoice::settle_implicit(double gone, double longest, long evaluations) {
+void MethodChoice::settle_implicit(double gone, double longest, long evaluations, bool follows_base) {
   if (gone > 0.0) may_pass_over_ = false;
   attempt_ = Attempt::ordinary;
   wait_ = 0;
@@ -218,6 +218,8 @@ void MethodChoice::settle_implicit(double gone, double longest, long evaluations
   paid_ = paid_ || gain > 0.0;
   // cut short by a kink or the limit, it has not lost
   if (!(gone == longest && gain < 0.0)) book_implicit(gain);
+  // as long as the base rings the next one would lose as well
+  if (implicit_ && follows_base && gain < 0.0) leave_to_series(kTrialAfter);
 }
 
 void MethodChoice::give_up_implicit(long evaluations) {

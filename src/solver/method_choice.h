@@ -63,8 +63,9 @@ class MethodChoice {
   /// The series have gone `gone` of at most `longest` in a step.
   void settle_series(double gone, double longest);
 
-  /// An implicit step has gone `gone` of at most `longest`; 0: an event came at once.
-  void settle_implicit(double gone, double longest, long evaluations);
+  /// An implicit step has gone `gone` of at most `longest`; 0: an event came at once. `follows_base`: it is so short
+  /// that it follows a ring of the base.
+  void settle_implicit(double gone, double longest, long evaluations, bool follows_base = false);
 
   /// An implicit step was given up.
   void give_up_implicit(long evaluations);

@@ -267,6 +267,19 @@ TEST(MethodChoice, a_ring_is_left_to_the_series_at_once) {
   EXPECT_EQ(steps_until_trial(choice), kTrialAfter);
 }
 
+TEST(MethodChoice, a_ring_that_an_implicit_step_follows_at_a_loss_is_left_to_the_series) {
+  MethodChoice gains = rich(), loses = rich(), passes = rich();
+  gains.settle_implicit(1.01 * kUsual, kFar, kEffort, true);
+  EXPECT_TRUE(gains.implicit());
+  passes.settle_implicit(0.99 * kUsual, kFar, kEffort, false);
+  EXPECT_TRUE(passes.implicit());
+  loses.settle_implicit(0.99 * kUsual, kFar, kEffort, true);
+  EXPECT_FALSE(loses.implicit());
+  go_by_series(loses);  // as after a kink
+  EXPECT_FALSE(starts(loses, 0.0));
+  EXPECT_TRUE(starts(loses, kFar));
+}
+
 // One that has paid goes on after a single series step, if it is to be 1.5 times as long as would pay; the series would
 // go 1.25 times as far as they did in the ring.
 TEST(MethodChoice, implicit_steps_that_have_paid_go_on_as_soon_as_the_ring_is_passed_over) {
