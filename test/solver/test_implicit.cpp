@@ -280,6 +280,24 @@ TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
   EXPECT_EQ(a.omega, b.omega);
 }
 
+// A slip or stick event makes a stiff base ring, hardly damped: implicit steps that follow the ring go no farther than
+// half of what the series do, and cost as much.
+TEST(Implicit, rings_after_slip_events_are_left_to_the_series) {
+  for (const double stiffness : {1e5, 1e6, 1e7}) {
+    Scene scene = pressed(stiffness, 0.1);
+    scene.solver.name = "auto";
+    scene.solver.tolerance = 1e-6;
+    const double radian = 1.0 / std::sqrt(stiffness);
+    long slips = 0, following = 0;
+    test::run(scene, [&](const Segment& g) {
+      for (int i = 0; i < g.event_count; ++i) slips += g.events[static_cast<std::size_t>(i)].kind == EventKind::slip;
+      following += g.coarse && g.event_count == 0 && g.duration < 2.0 * radian;
+    });
+    EXPECT_GT(slips, 5) << stiffness;
+    EXPECT_LE(following, 4 * slips) << stiffness;
+  }
+}
+
 // A part wedged at rest is aligned from the start: the first series step tells, and nothing else is asked.
 TEST(Implicit, automatic_choice_asks_no_implicit_step_where_the_trial_ends_at_once) {
   for (const char* name : {"wedging", "jamming"}) {
