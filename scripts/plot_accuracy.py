@@ -42,9 +42,10 @@ def draw(lines, floor, title, target, kind):
         colour, mark = STYLES.get(solver, ("#000000", "."))
         style = HOLLOW if solver == "auto" else SOLID
         axes.loglog(*zip(*points), color=colour, marker=mark, label=solver, **style)
-    if floor > 0.0:
-        axes.axvspan(axes.get_xlim()[0], floor, color="0.93", zorder=0)
-    axes.invert_xaxis()
+    least, most = axes.get_xlim()
+    if floor > least:
+        axes.axvspan(least, min(floor, most), color="0.93", zorder=0, label="less than the reference knows")
+    axes.set_xlim(most, least)  # error falls from left to right
     axes.set_xlabel("error of the pose at the end (dimensionless)")
     axes.set_ylabel("CPU time of a trial [µs]")
     axes.set_title(title)

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
 #include "cli/picture_format.h"
+#include "cli/progress_bar.h"
 #include "cli/scene_path.h"
 #include "cli/script.h"
+#include "model/scaling.h"
 #include "model/scene_loader.h"
 #include "model/solver_choice.h"
 #include "model/solver_names.h"
@@ -31,9 +34,11 @@ constexpr char kFooter[] = R"(Examples:
   align accuracy r1 --solvers event,implicit         only these
   align accuracy my_scene.yaml --csv a.csv --plot a.png
 
-The reference is the trial by `event` at tolerance 1e-13, checked by `implicit` at 1e-11; errors below their difference
-say nothing. Every run ends where the reference ended. Pose error: the largest difference of x, y and phi there,
-dimensionless. Time: CPU time of one trial, median of repetitions in this process; compare times of one run only.
+The reference is the trial by `event` at tolerance 1e-13 (by `implicit` where that takes more than 200000 steps),
+checked by implicit steps at 1e-11; errors below their difference say nothing. Every run ends where the reference ended.
+Errors of the pose (the largest difference of x, y and phi there) and of the duration are dimensionless, steps are in
+the scene's own unit of time. Time: CPU time of one trial, median of repetitions that all runs take in turns; compare
+times of one run only.
 Exit status: 0 it ran; 1 it failed while running; 2 bad usage or bad scene.)";
 
 struct Options {
@@ -56,31 +61,40 @@ std::string format(const char* pattern, double value) {
   return text;
 }
 
-void print_heading() {
+/// A step or tolerance as `--step` and `--tolerance` take it: a step in the scene's own unit of time.
+double own_setting(const Scene& scene, const AccuracyRun& run) {
+  return run.fixed_step ? run.setting * output_units(scene).time : run.setting;
+}
+
+void print_heading(const Scene& scene, const AccuracyReference& reference) {
+  std::printf("%s to %.6g (dimensionless); reference %s, %s differs by %.1e%s\n\n", scene.name.c_str(),
+              reference.end_time, reference.method.c_str(), reference.second_method.c_str(), reference.agreement,
+              scene.units == Units::si ? "; steps in s" : "");
   std::printf("%-14s %9s %10s %10s %10s %11s %10s %9s %8s %10s\n", "solver", "setting", "pose", "force", "duration",
               "time [us]", "rhs", "steps", "events", "residual");
 }
 
-void print_row(const AccuracyRun& run) {
+void print_row(const Scene& scene, const AccuracyRun& run) {
+  const double setting = own_setting(scene, run);
   if (!run.failure.empty()) {
-    std::printf("%-14s %9.1e %s\n", run.solver.c_str(), run.setting, run.failure.c_str());
+    std::printf("%-14s %9.1e %s\n", run.solver.c_str(), setting, run.failure.c_str());
     return;
   }
-  std::printf("%-14s %9.1e %10.1e %10.1e %10s %11.1f %10ld %9ld %8ld %10.1e\n", run.solver.c_str(), run.setting,
+  std::printf("%-14s %9.1e %10.1e %10.1e %10s %11.1f %10ld %9ld %8ld %10.1e\n", run.solver.c_str(), setting,
               run.pose_error, run.force_error, run.duration_error ? format("%.1e", *run.duration_error).c_str() : "-",
               1e6 * run.cpu_seconds, run.counts.rhs_evaluations, run.counts.steps, run.counts.events,
               run.energy_residual);
 }
 
 /// Throws OutputError.
-void write_csv(const std::string& path, const std::string& name, const std::vector<AccuracyRun>& runs,
-               const AccuracyReference& reference) {
+void write_csv(const std::string& path, const std::string& name, const Scene& scene,
+               const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
   std::ofstream file(path);
   file.precision(17);
   file << "solver,kind,setting,pose_error,force_error,duration_error,cpu_seconds,repetitions,rhs_evaluations,steps,"
           "rejected,events,energy_residual,reference_agreement,failure\n";
   for (const AccuracyRun& run : runs) {
-    file << run.solver << ',' << (run.fixed_step ? "step" : "tolerance") << ',' << run.setting << ',';
+    file << run.solver << ',' << (run.fixed_step ? "step" : "tolerance") << ',' << own_setting(scene, run) << ',';
     if (run.failure.empty()) {
       file << run.pose_error << ',' << run.force_error << ',';
       if (run.duration_error) file << *run.duration_error;
@@ -100,10 +114,13 @@ void print_choice(const Scene& scene, const std::vector<AccuracyRun>& runs, doub
   const std::string solver = solver_for_accuracy(scene);
   const double tolerance = tolerance_for_accuracy(error);
   std::printf("  solver: {accuracy: %.0e} picks %s with a tolerance of %.1e", error, solver.c_str(), tolerance);
-  for (const AccuracyRun& run : runs)
+  bool tried = false;
+  for (const AccuracyRun& run : runs) {
+    tried = tried || run.solver == solver;
     if (run.solver == solver && run.failure.empty() && std::abs(run.setting - tolerance) < 1e-6 * tolerance)
       std::printf(": error %.1e, %.0f us", run.pose_error, 1e6 * run.cpu_seconds);
-  std::printf(".\n");
+  }
+  std::printf(tried ? ".\n" : ", which is not among these.\n");
 }
 
 /// For each of a few errors the cheapest way, and the way to have one chosen.
@@ -118,11 +135,39 @@ void print_advice(const Scene& scene, const std::vector<AccuracyRun>& runs, cons
     if (run == nullptr) {
       std::printf("For an error of %.0e: none of these keeps it.\n", error);
     } else {
-      std::printf("For an error of %.0e use %s with a %s of %.1e: it costs %.0f us.\n", error, run->solver.c_str(),
-                  run->fixed_step ? "step" : "tolerance", run->setting, 1e6 * run->cpu_seconds);
+      const char* unit = run->fixed_step && scene.units == Units::si ? " s" : "";
+      std::printf("For an error of %.0e use %s with a %s of %.1e%s: it costs %.0f us.\n", error, run->solver.c_str(),
+                  run->fixed_step ? "step" : "tolerance", own_setting(scene, *run), unit, 1e6 * run->cpu_seconds);
     }
     print_choice(scene, runs, error);
   }
+}
+
+/// Reference and runs; what there is when a signal has come.
+std::optional<AccuracyReference> run_study(const Scene& scene, const Options& options, const InterruptGuard& interrupt,
+                                           std::vector<AccuracyRun>& runs) {
+  ProgressBar bar(stdout_is_terminal());
+  double share = 0.0;
+  std::string words = "reference";
+  unsigned asked = 0;
+  const GoOn go_on = [&] {
+    // at every step of runs that are timed: a look at the clock is not nothing
+    if (asked++ % 64 == 0) bar.update(share, [&] { return words; });
+    return interrupt.signal() == 0;
+  };
+  const std::optional<AccuracyReference> reference = accuracy_reference(scene, go_on);
+  if (!reference) return reference;
+  AccuracyOptions study;
+  study.solvers = options.solvers;
+  try {
+    runs = run_accuracy_study(scene, *reference, study, go_on, [&](double done, const AccuracyRun& next) {
+      share = done;
+      words = next.solver + format(", %.0e", own_setting(scene, next));
+    });
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return reference;
 }
 
 int run_accuracy(const Options& options) {
@@ -131,40 +176,28 @@ int run_accuracy(const Options& options) {
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
   const Scene scene = load_scene(tree, file, options.settings);
   const std::string format = options.plot.empty() ? "" : picture_format("--plot", options.plot);
+  const InterruptGuard interrupt;
   std::unique_ptr<OutputPath> csv, picture;
   if (!options.csv.empty()) csv = std::make_unique<OutputPath>("--csv", options.csv);
   if (!options.plot.empty()) picture = std::make_unique<OutputPath>("--plot", options.plot);
 
-  const AccuracyReference reference = accuracy_reference(scene);
-  std::printf("%s to %.6g (dimensionless); reference %s, %s differs by %.1e\n\n", scene.name.c_str(),
-              reference.end_time, reference.method.c_str(), reference.second_method.c_str(), reference.agreement);
-  print_heading();
-  AccuracyOptions study;
-  study.solvers = options.solvers;
-  const InterruptGuard interrupt;
   std::vector<AccuracyRun> runs;
-  try {
-    runs = run_accuracy_study(scene, reference, study, [&](const AccuracyRun& run) {
-      print_row(run);
-      std::fflush(stdout);
-      return interrupt.signal() == 0;
-    });
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
+  const std::optional<AccuracyReference> reference = run_study(scene, options, interrupt, runs);
   if (interrupt.signal() != 0) {
     std::fprintf(stderr, "align: interrupted; no file is written\n");
     return 128 + interrupt.signal();
   }
-  print_advice(scene, runs, reference);
-  std::fflush(stdout);
+  print_heading(scene, *reference);
+  for (const AccuracyRun& run : runs) print_row(scene, run);
+  print_advice(scene, runs, *reference);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw OutputError("stdout", "the table is lost");
   if (csv) {
-    write_csv(csv->temporary(), csv->path(), runs, reference);
+    write_csv(csv->temporary(), csv->path(), scene, runs, *reference);
     csv->commit();
   }
   if (picture) {
     const std::string table = picture->temporary() + ".csv";
-    write_csv(table, table, runs, reference);
+    write_csv(table, table, scene, runs, *reference);
     require_script("plot_accuracy.py", {table, picture->temporary(), "--format", format, "--title", scene.name},
                    "--plot");
     std::filesystem::remove(table);

@@ -18,14 +18,37 @@ constexpr double kReferenceTolerance = 1e-13, kSecondTolerance = 1e-11;
 constexpr double kCoarsestTolerance = 1e-1, kFinestTolerance = 1e-12;
 constexpr int kSteps = 7;
 
-constexpr int kMostRepetitions = 50;
+/// Repetitions of a run that is timed, in all and one after the other before the other runs have their turn: the
+/// clock of a computer changes within seconds, and so meets all runs alike.
+constexpr std::size_t kMostRepetitions = 50, kRepetitionsPerTurn = 5;
+
+/// Steps of a reference by `event` before `implicit` is asked whether it needs as many.
+constexpr long kManySteps = 200'000;
+
+/// Where a trial that ends with a touch is compared, as a share of its time.
+constexpr double kBeforeTouch = 0.99;
+
 constexpr double kTwoPi = 6.28318530717958647692;
 
-TrialResult run(const Scene& scene, const SimulationOptions& options) {
+/// The study is not to go on.
+struct Stopped {};
+
+struct Run {
+  TrialResult result;
+  bool ends_with_touch = false;
+};
+
+Run run(const Scene& scene, const SimulationOptions& options, const GoOn& go_on) {
   Simulation simulation(scene, options);
-  while (simulation.advance()) {
-  }
-  return simulation.result();
+  while (simulation.advance())
+    if (!go_on()) throw Stopped();
+  Run run;
+  run.result = simulation.result();
+  if (run.result.outcome == Outcome::failed || run.result.outcome == Outcome::time_limit) return run;
+  const Segment& last = simulation.segment();
+  for (int i = 0; i < last.event_count; ++i)
+    if (last.events[static_cast<std::size_t>(i)].kind == EventKind::touch) run.ends_with_touch = true;
+  return run;
 }
 
 Scene with_solver(Scene scene, const std::string& name, double setting, bool fixed_step) {
@@ -55,14 +78,14 @@ std::vector<double> settings_of(const Scene& scene, bool fixed_step, double step
   return settings;
 }
 
-AccuracyRun measure(const Scene& scene, const AccuracyReference& reference, double seconds) {
+/// What a run comes to, but for its time.
+void compare(const Scene& scene, const AccuracyReference& reference, const GoOn& go_on, AccuracyRun& result) {
   SimulationOptions options;
   options.until = reference.end_time;
-  AccuracyRun result;
-  // the ledger is kept once, and costs nothing in the runs that are timed
-  const TrialResult checked = run(scene, options);
+  const TrialResult checked = run(scene, options, go_on).result;
+  result.cpu_seconds = checked.cpu_seconds;
   result.failure = checked.failure;
-  if (checked.outcome == Outcome::failed) return result;
+  if (checked.outcome == Outcome::failed) return;
   result.pose_error = pose_difference(checked.final_state, reference.end);
   double largest = 0.0;
   for (std::size_t i = 0; i < kSpotCount; ++i) {
@@ -72,71 +95,159 @@ AccuracyRun measure(const Scene& scene, const AccuracyReference& reference, doub
   if (largest > 0.0) result.force_error /= largest;
   if (reference.aligned_time) {
     // a trial that ends where the reference aligned may be about to
-    const std::optional<double> aligned = checked.aligned_time ? checked.aligned_time : run(scene, {}).aligned_time;
+    const std::optional<double> aligned =
+        checked.aligned_time ? checked.aligned_time : run(scene, {}, go_on).result.aligned_time;
     if (aligned) result.duration_error = std::abs(*aligned - *reference.aligned_time);
   }
   if (checked.energy) result.energy_residual = checked.energy->residual;
   result.counts = checked.counts;
-
-  options.energy = false;
-  std::vector<double> times;
-  double spent = 0.0;
-  while (times.empty() || (spent < seconds && times.size() < kMostRepetitions)) {
-    times.push_back(run(scene, options).cpu_seconds);
-    spent += times.back();
-  }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  result.cpu_seconds = *middle;
-  result.repetitions = static_cast<int>(times.size());
-  return result;
 }
 
-}  // namespace
+/// Times all runs that have an answer, in turns. The ledger has been kept by compare(), and costs nothing here.
+class Stopwatch {
+ public:
+  Stopwatch(const AccuracyReference& reference, double seconds_per_run) : seconds_(seconds_per_run) {
+    options_.until = reference.end_time;
+    options_.energy = false;
+  }
 
-AccuracyReference accuracy_reference(const Scene& scene) {
+  void add(const Scene& scene, std::size_t index) { entries_.push_back({scene, index, {}, 0.0}); }
+
+  void time(const GoOn& go_on, std::vector<AccuracyRun>& runs) {
+    bool timed = true;
+    while (timed) {
+      timed = false;
+      for (Entry& entry : entries_)
+        for (std::size_t i = 0; i < kRepetitionsPerTurn && wants_more(entry); ++i, timed = true) {
+          entry.times.push_back(run(entry.scene, options_, go_on).result.cpu_seconds);
+          entry.spent += entry.times.back();
+        }
+    }
+    for (Entry& entry : entries_) {
+      const auto middle = entry.times.begin() + static_cast<std::ptrdiff_t>(entry.times.size() / 2);
+      std::nth_element(entry.times.begin(), middle, entry.times.end());
+      runs[entry.index].cpu_seconds = *middle;
+      runs[entry.index].repetitions = static_cast<int>(entry.times.size());
+    }
+  }
+
+ private:
+  struct Entry {
+    Scene scene;
+    std::size_t index;  ///< of its run
+    std::vector<double> times;
+    double spent;
+  };
+
+  bool wants_more(const Entry& entry) const {
+    return entry.times.empty() || (entry.spent < seconds_ && entry.times.size() < kMostRepetitions);
+  }
+
+  double seconds_;
+  SimulationOptions options_;
+  std::vector<Entry> entries_;
+};
+
+/// The first run of a reference, at its finest, with at most so many steps. Its step limit is the scene's again where
+/// that is reached.
+Run first_run(Scene scene, const std::string& solver, long step_limit, const GoOn& go_on) {
+  scene.solver.step_limit = std::min(scene.solver.step_limit, step_limit);
+  return run(with_solver(scene, solver, kReferenceTolerance, false), {}, go_on);
+}
+
+AccuracyReference find_reference(const Scene& scene, const GoOn& go_on) {
   AccuracyReference reference;
   reference.method = "event";
   reference.second_method = kImplicitAlone;
-  const TrialResult first = run(with_solver(scene, reference.method, kReferenceTolerance, false), {});
-  if (first.outcome == Outcome::failed) throw std::runtime_error("the reference run failed: " + first.failure);
-  reference.end_time = first.final_time;
-  reference.end = first.final_state;
-  reference.peak_force = first.peak_force;
-  reference.aligned_time = first.aligned_time;
+  Run first = first_run(scene, reference.method, kManySteps, go_on);
+  if (first.result.outcome == Outcome::failed && first.result.counts.steps > kManySteps) {
+    const Run implicit = first_run(scene, "implicit", kManySteps, go_on);
+    if (implicit.result.outcome != Outcome::failed) {
+      reference.method = "implicit";
+      first = implicit;
+    } else {
+      first = first_run(scene, reference.method, scene.solver.step_limit, go_on);
+    }
+  }
+  if (first.result.outcome == Outcome::failed)
+    throw std::runtime_error("the reference run failed: " + first.result.failure);
+  reference.end_time = first.result.final_time;
+  reference.aligned_time = first.result.aligned_time;
   SimulationOptions options;
+  if (first.ends_with_touch) {
+    options.until = reference.end_time *= kBeforeTouch;
+    first = run(with_solver(scene, reference.method, kReferenceTolerance, false), options, go_on);
+  }
+  reference.end = first.result.final_state;
+  reference.peak_force = first.result.peak_force;
   options.until = reference.end_time;
-  const TrialResult second = run(with_solver(scene, reference.second_method, kSecondTolerance, false), options);
+  const TrialResult second =
+      run(with_solver(scene, reference.second_method, kSecondTolerance, false), options, go_on).result;
   if (second.outcome == Outcome::failed)
     throw std::runtime_error("the check of the reference failed: " + second.failure);
   reference.agreement = pose_difference(second.final_state, reference.end);
   return reference;
 }
 
-std::vector<AccuracyRun> run_accuracy_study(const Scene& scene, const AccuracyReference& reference,
-                                            const AccuracyOptions& options,
-                                            const std::function<bool(const AccuracyRun&)>& progress) {
+bool is_built(const Scene& scene, const SolverName& solver) {
+  try {
+    Simulation(with_solver(scene, solver.name, kCoarsestTolerance, solver.fixed_step));
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+/// What is tried: all settings of all solvers that are wanted, or else of all that are built.
+std::vector<AccuracyRun> runs_of(const Scene& scene, const AccuracyOptions& options) {
   std::vector<AccuracyRun> runs;
+  const std::vector<std::string>& wanted = options.solvers;
   for (const SolverName& solver : solver_names) {
-    const std::vector<std::string>& wanted = options.solvers;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), solver.name) == wanted.end()) continue;
+    if (wanted.empty() && !is_built(scene, solver)) continue;
     for (const double setting : settings_of(scene, solver.fixed_step, options.step_share)) {
-      AccuracyRun result;
-      try {
-        result =
-            measure(with_solver(scene, solver.name, setting, solver.fixed_step), reference, options.seconds_per_run);
-      } catch (const std::invalid_argument&) {
-        // asked for by name it must be there; in a study of all it is left out
-        if (!wanted.empty()) throw;
-        break;
-      }
-      result.solver = solver.name;
-      result.setting = setting;
-      result.fixed_step = solver.fixed_step;
-      runs.push_back(result);
-      if (!progress(result)) return runs;
-      if (result.cpu_seconds > options.longest_run) break;
+      AccuracyRun run;
+      run.solver = solver.name;
+      run.setting = setting;
+      run.fixed_step = solver.fixed_step;
+      runs.push_back(run);
     }
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::optional<AccuracyReference> accuracy_reference(const Scene& scene, const GoOn& go_on) {
+  try {
+    return find_reference(scene, go_on);
+  } catch (const Stopped&) {
+    return {};
+  }
+}
+
+std::vector<AccuracyRun> run_accuracy_study(const Scene& scene, const AccuracyReference& reference,
+                                            const AccuracyOptions& options, const GoOn& go_on,
+                                            const std::function<void(double, const AccuracyRun&)>& progress) {
+  std::vector<AccuracyRun> runs = runs_of(scene, options);
+  Stopwatch stopwatch(reference, options.seconds_per_run);
+  try {
+    std::string slow;  // solver whose last run was too long for finer ones
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      AccuracyRun& run = runs[i];
+      progress(static_cast<double>(i) / static_cast<double>(runs.size()), run);
+      if (run.solver == slow) {
+        run.failure = "left out: a coarser one took too long";
+        continue;
+      }
+      const Scene with_setting = with_solver(scene, run.solver, run.setting, run.fixed_step);
+      compare(with_setting, reference, go_on, run);
+      if (run.cpu_seconds > options.longest_run) slow = run.solver;
+      if (run.failure.empty()) stopwatch.add(with_setting, i);
+    }
+    stopwatch.time(go_on, runs);
+  } catch (const Stopped&) {
+    runs.clear();
   }
   return runs;
 }
@@ -145,9 +256,9 @@ const AccuracyRun* cheapest_for(const std::vector<AccuracyRun>& runs, double err
   const AccuracyRun* best = nullptr;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     // kept by this and by all finer runs of the same solver, which follow it
-    bool kept = true;
+    bool kept = runs[i].failure.empty();
     for (std::size_t j = i; j < runs.size() && runs[j].solver == runs[i].solver; ++j)
-      kept = kept && runs[j].failure.empty() && runs[j].pose_error <= error;
+      kept = kept && (!runs[j].failure.empty() || runs[j].pose_error <= error);
     if (kept && (best == nullptr || runs[i].cpu_seconds < best->cpu_seconds)) best = &runs[i];
   }
   return best;

@@ -2,15 +2,19 @@
 
 import csv
 import os
+import re
+import signal
+import subprocess
+import time
 import unittest
 
-from align_test_case import AlignTestCase
+from align_test_case import SOURCE_ROOT, AlignTestCase
 
 
 class AccuracyTest(AlignTestCase):
-    def study(self, *arguments):
+    def study(self, *arguments, scene=None):
         path = self.path("accuracy.csv")
-        process = self.align("accuracy", self.scene(), "--csv", path, *arguments)
+        process = self.align("accuracy", scene or self.scene(), "--csv", path, *arguments)
         self.assertEqual(process.returncode, 0, process.stderr)
         with open(path, newline="") as file:
             return process.stdout, list(csv.DictReader(file))
@@ -50,6 +54,41 @@ class AccuracyTest(AlignTestCase):
             self.study("--solvers", "event", "--plot", self.path(name))
             with open(self.path(name), "rb") as file:
                 self.assertEqual(file.read(len(begin)), begin, name)
+
+    def test_steps_are_in_the_scenes_own_unit_of_time(self):
+        text, rows = self.study("--solvers", "rk4", scene="gripper_si")
+        self.assertIn("; steps in s\n", text)
+        # a hundredth of a period of 150 Hz
+        self.assertAlmostEqual(float(rows[0]["setting"]), 0.01 / 150.0, delta=1e-9)
+        step = re.search(r"For an error of 1e-03 use rk4 with a step of (\S+) s:", text).group(1)
+        row = next(row for row in rows if "%.1e" % float(row["setting"]) == step)
+        self.assertLess(float(row["pose_error"]), 1e-3)
+
+    def test_peaks_do_not_hang_on_the_touch_that_ends_a_trial(self):
+        _, rows = self.study("--solvers", "event", scene="insertion")
+        for row in rows:
+            self.assertLess(float(row["force_error"]), 1e-3, row["setting"])
+
+    def test_a_full_disk_is_told(self):
+        with open("/dev/full", "w") as full:
+            process = self.align("accuracy", self.scene(), "--solvers", "event", stdout=full)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("stdout", process.stderr)
+
+    def test_an_interrupt_ends_it_at_the_next_step(self):
+        # the reference alone takes seconds
+        path = self.path("a.csv")
+        process = subprocess.Popen(
+            [self.align_path, "accuracy", "hard/conservative_ball", "--set", "trial.time_limit=1e6", "--csv", path],
+            cwd=self.directory, env=dict(os.environ, ROS_PACKAGE_PATH=SOURCE_ROOT), stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE, universal_newlines=True)
+        while not os.listdir(self.directory):  # the file is begun once signals are heeded
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, text = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("interrupted", text)
+        self.assertEqual(os.listdir(self.directory), [])
 
     def test_refusals(self):
         self.assert_refused(["accuracy", self.scene(), "--solvers", "magic"], "magic", "event", "ode")
