@@ -281,10 +281,12 @@ double ImplicitStep::growth(double h, double ratio) const {
 }
 
 bool ImplicitStep::retake(double h, Segment& segment, SolverCounts& counts) {
-  if (!equations_.solve(h, counts)) return false;
-  if (equations_.in_layer() && error(h) > equations_.allowed(h)) return false;
-  fill(h, segment);
-  return true;
+  if (equations_.solve(h, counts) && !(equations_.in_layer() && error(h) > equations_.allowed(h))) {
+    fill(h, segment);
+    return true;
+  }
+  equations_.drop_solution();
+  return false;
 }
 
 /// The polynomials of the step as power series of the segment.

@@ -56,8 +56,10 @@ VIBRATORY_ALIGNMENT_INLINE Octet place(double h, double q0, double v0, const Oct
 
 void StageEquations::begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
                            SolverCounts& counts) {
-  known_ago_ = known_length_;
-  if (!follows) known_length_ = 0.0;
+  Known& known = knowledge_[known_];
+  known.ago = known.length;
+  if (!follows) known.length = 0.0;
+  known_before_ = known_;
   start_ = start;
   drives_ = &drives;
   contacts_ = &contacts;
@@ -72,21 +74,22 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
 void StageEquations::guess(double h) {
   const StageTable& table = stage_table();
   const auto contacts = static_cast<std::size_t>(start_forces_.count);
-  if (known_length_ == 0.0 || h > kLongestGuess * known_length_) {
+  const Known& known = knowledge_[known_];
+  if (known.length == 0.0 || h > kLongestGuess * known.length) {
     acceleration_ = {start_forces_.ax, start_forces_.ay, start_forces_.alpha};
     for (std::size_t c = 0; c < contacts; ++c) acting_[c] = start_forces_.contact[c].normal_force;
     return;
   }
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
     // what a value at the nodes counts at each of the new nodes: Lagrange's polynomials
-    const Octet t = (known_ago_ + table.node * h) / known_length_;
+    const Octet t = (known.ago + table.node * h) / known.length;
     std::array<Octet, kStages> weight;
     for (std::size_t j = 0; j < kStages; ++j) {
       weight[j] = table.lagrange[kStages - 1][j];
       for (std::size_t k = kStages - 1; k-- > 0;) weight[j] = weight[j] * t + table.lagrange[k][j];
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[axis] = combine(weight, known_[axis]);
-    for (std::size_t c = 0; c < contacts; ++c) acting_[c] = combine(weight, known_normal_[c]);
+    for (std::size_t axis = 0; axis < 3; ++axis) acceleration_[axis] = combine(weight, known.acceleration[axis]);
+    for (std::size_t c = 0; c < contacts; ++c) acting_[c] = combine(weight, known.normal[c]);
   });
 }
 
@@ -102,11 +105,13 @@ void StageEquations::tell_acting() {
 }
 
 void StageEquations::keep_guess(double h) {
-  known_ = acceleration_;
+  known_ = 1 - known_before_;
+  Known& known = knowledge_[known_];
+  known.acceleration = acceleration_;
   for (std::size_t c = 0; c < static_cast<std::size_t>(start_forces_.count); ++c)
-    known_normal_[c] = forces_.contact[c].normal_force;
-  known_length_ = h;
-  known_ago_ = 0.0;
+    known.normal[c] = forces_.contact[c].normal_force;
+  known.length = h;
+  known.ago = 0.0;
 }
 
 /// What rounding of the coordinates and velocities makes of the accelerations, times h: no residual is smaller. What is

@@ -23,6 +23,9 @@ class StageEquations {
   /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations.
   bool solve(double h, SolverCounts& counts, bool easily = false);
 
+  /// The next solution is guessed from what the step began with, not from the one at hand, which is worth nothing.
+  void drop_solution() { known_ = known_before_; }
+
   /// The solution.
   const State& start() const { return start_; }
   const Forces& start_forces() const { return start_forces_; }
@@ -83,9 +86,13 @@ class StageEquations {
 
   /// What a step is guessed from: accelerations and normal forces at the nodes of a step of this length that began
   /// `ago` before `start_`.
-  Stages known_{};
-  NormalForcesOctet known_normal_{};
-  double known_length_ = 0.0, known_ago_ = 0.0;
+  struct Known {
+    Stages acceleration{};
+    NormalForcesOctet normal{};
+    double length = 0.0, ago = 0.0;
+  };
+  std::array<Known, 2> knowledge_;
+  std::size_t known_ = 0, known_before_ = 0;  ///< of these, the one at hand and that of the step before
 
   StageModes modes_;
   LayerCoupling layer_;
