@@ -279,7 +279,8 @@ void EventSolver::take_step(double longest, bool contact) {
     step = series_step(system_, segment_, point_tolerance);
   }
   go_along(step, longest, point_tolerance, contact);
-  if (!implicit_now_ || implicit_.keeps_normal_forces(segment_, mode_.pins)) return;
+  if (!implicit_now_ || (implicit_.keeps_normal_forces(segment_, mode_.pins) && !implicit_.leaves_ring_of_start()))
+    return;
   leave_implicit_step();
   go_along(series_contact_step(longest, forms_), longest, point_tolerance, contact);
 }

@@ -5,6 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "mechanics/contact_frame.h"
+#include "mechanics/tilt.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -42,7 +45,8 @@ constexpr double kSafety = 0.8, kLeastGrowth = 0.1, kMostGrowth = 5.0;
 /// Errors smaller than this share of the one allowed say nothing about their trend.
 constexpr double kNegligible = 1e-2;
 
-/// Amplitude of what a trial's first step may pass over, as a multiple of its tolerance, in lengths of the part.
+/// Amplitude of what a trial's first step may pass over, and how far its speed may lead once the part is released, as a
+/// multiple of its tolerance, in lengths of the part.
 constexpr double kPassedOver = 100.0;
 
 double longest_drive_step(const DriveForms& drives) {
@@ -84,6 +88,35 @@ double slow_base_time(const System& system) {
                      most_mobility_of_mass(system));
 }
 
+/// Rate at which the base damps a motion of this mobility, at least.
+double ring_decay(double stiffness, double damping, double mobility) {
+  const double half = 0.5 * damping * mobility, square = stiffness * mobility, beyond = half * half - square;
+  return beyond < 0.0 ? half : square / (half + std::sqrt(beyond));
+}
+
+/// The same for what the part can do on its loaded contacts: along a normal, on several also turn.
+double slowest_ring_decay(const System& system, const State& state, const ContactStates& contacts) {
+  const auto [c, s] = tilt_of(state.phi);
+  double mobility = std::numeric_limits<double>::infinity();
+  const auto add = [&](double of_axis) {
+    if (of_axis > 0.0) mobility = std::min(mobility, of_axis);
+  };
+  add(system.x.inverse_inertia);
+  add(system.y.inverse_inertia);
+  const auto is_loaded = [](const ContactState& contact) { return contact.phase == Phase::loaded; };
+  if (std::count_if(contacts.begin(), contacts.end(), is_loaded) > 1)
+    add(system.half_width * system.half_width * system.phi.inverse_inertia);
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const ContactState& contact : contacts)
+    if (is_loaded(contact))
+      slowest = std::min(slowest, ring_decay(stiffness_of(system, contact.face, c, s),
+                                             damping_of(system, contact.face, c, s), mobility));
+  return slowest;
+}
+
+/// Time in which the gripper turns a flight along the insertion round: a speed times this is how far it leads.
+double flight_time(const System& system) { return 1.0 / std::sqrt(system.y.stiffness * system.y.inverse_inertia); }
+
 /// Degree of the polynomials of the positions.
 constexpr int kDegree = Collocation::kStages + 1;
 
@@ -123,10 +156,12 @@ VIBRATORY_ALIGNMENT_INLINE double force_to_begin_with(double last, const Octet& 
 }  // namespace
 
 ImplicitStep::ImplicitStep(const System& system, double tolerance)
-    : equations_(system, tolerance),
+    : system_(system),
+      equations_(system, tolerance),
       base_time_(base_time(system)),
       slow_base_time_(slow_base_time(system)),
       natural_rate_(natural_rate(system)),
+      flight_time_(flight_time(system)),
       most_passed_over_(kPassedOver * tolerance * (system.half_width + system.base_distance)) {}
 
 void ImplicitStep::restart(bool base_rings) {
@@ -173,11 +208,17 @@ double ImplicitStep::speed_missed_at_start() const {
 
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
 /// the missed accelerations is that amplitude, times the square of its rate, which the filter divides by; in the missed
-/// velocities it is the amplitude times its rate.
+/// velocities it is the amplitude times its rate. What the base has not damped of that speed by the end of the step the
+/// part has once it is released.
 bool ImplicitStep::passes_over_too_much(double h) const {
   const double length = h * collocation().eigenvalue[0].real();
-  return length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_ ||
-         slow_base_time_ * speed_missed_at_start() > most_passed_over_;
+  if (length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_) return true;
+  const double time = std::max(slow_base_time_, flight_time_ * std::exp(-h * ring_decay_));
+  return time * speed_missed_at_start() > most_passed_over_;
+}
+
+bool ImplicitStep::leaves_ring_of_start() const {
+  return at_start_ && length_ > base_time_ && passes_over_too_much(length_);
 }
 
 double ImplicitStep::take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
@@ -186,6 +227,7 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   taken_ = false;
   if (!follows_) last_length_ = 0.0;
   equations_.begin(start, drives, segment.contacts, follows_, counts);
+  if (at_start_) ring_decay_ = slowest_ring_decay(system_, start, segment.contacts);
   const double longest = std::min(bounds.longest, longest_drive_step(drives));
   const double shortest = std::max(bounds.shortest, kShortest * longest);
   const long evaluations_before = counts.rhs_evaluations;
@@ -290,7 +332,8 @@ bool ImplicitStep::retake(double h, Segment& segment, SolverCounts& counts) {
 }
 
 /// The polynomials of the step as power series of the segment.
-void ImplicitStep::fill(double h, Segment& segment) const {
+void ImplicitStep::fill(double h, Segment& segment) {
+  length_ = h;
   segment.order = kDegree;
   segment.loaded_count = equations_.start_forces().count;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {

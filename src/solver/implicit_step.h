@@ -64,6 +64,10 @@ class ImplicitStep {
   /// within a factor of two of the state's: what it passes over may lift that contact, or make it slide another way.
   bool keeps_normal_forces(const Segment& segment, const Pins& pins) const;
 
+  /// True when the last step is one at the start of the trial and, as short as an event has made it, ends before the
+  /// base has damped what it passes over.
+  bool leaves_ring_of_start() const;
+
   /// The motion does not go on from the end of the last step.
   void forget() { taken_ = false; }
 
@@ -78,10 +82,13 @@ class ImplicitStep {
   double error(double h) const;
   bool passes_over_too_much(double h) const;
   double growth(double h, double ratio) const;
-  void fill(double h, Segment& segment) const;
+  void fill(double h, Segment& segment);
 
+  const System& system_;
   StageEquations equations_;
-  double base_time_, slow_base_time_, natural_rate_, most_passed_over_;
+  double base_time_, slow_base_time_, natural_rate_, flight_time_, most_passed_over_;
+  double ring_decay_ = 0.0;                      ///< of what a step at the start of the trial passes over
+  double length_ = 0.0;                          ///< of the solution that fills the segment
   double known_step_ = 0.0;                      ///< of steps that are good enough, as far as the last ones tell
   FastMotion over_;                              ///< what the next step passes over, with its most speed; rate 0: all
   double next_step_ = 0.0;                       ///< length that the last step suggests

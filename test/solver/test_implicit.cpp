@@ -264,8 +264,8 @@ TEST(Implicit, automatic_choice_takes_few_steps_where_either_does) {
       const auto implicit = static_cast<double>(run_with(scene, "implicit", tolerance).counts.steps);
       EXPECT_LT(run_with(scene, "auto", tolerance).counts.steps, 1.4 * implicit) << stiffness;
     }
-  // a start at rest, whose ring is passed over
-  for (const double stiffness : {1e6, 1e7})
+  // a start at rest, whose ring is passed over: its speed is the rate of the force, 7, over the stiffness
+  for (const double stiffness : {1e7, 1e8})
     for (const double damping_ratio : {0.01, 0.1, 1.0, 10.0}) {
       Scene scene = test::hard_scene("lasting_contact");
       test::set_base(scene, stiffness, damping_ratio);
