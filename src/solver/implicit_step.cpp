@@ -29,7 +29,8 @@ constexpr double kResolved = 5.0, kShortForDrive = 0.3;
 /// what rounding of the coordinates leaves, times the second.
 constexpr double kLongRing = 3.0, kRingOfRounding = 10.0;
 
-/// Most change of a normal force by what is passed over, as a share of the smaller one of before and after.
+/// Most change of a normal force by what is passed over, in place and speed, as a share of the smaller one of before
+/// and after.
 constexpr double kMostOverForce = 1.0;
 
 /// Where a step would pass over more than it may, a shorter one is tried with this share of its length, which still
@@ -117,6 +118,17 @@ double slowest_ring_decay(const System& system, const State& state, const Contac
 /// Time in which the gripper turns a flight along the insertion round: a speed times this is how far it leads.
 double flight_time(const System& system) { return 1.0 / std::sqrt(system.y.stiffness * system.y.inverse_inertia); }
 
+/// What the spring of a contact makes of a velocity: its share in the normal force while that rings, or creeps away.
+double spring_force_of(const System& system, const State& state, Site site, Face face, const StageAxes& velocity) {
+  const auto [c, s] = tilt_of(state.phi);
+  const ContactKinematics k = contact_kinematics(system, state, site, face);
+  const double turn = cross(k.lever, k.normal), stiffness = stiffness_of(system, face, c, s);
+  const double mobility = k.normal.x * k.normal.x * system.x.inverse_inertia +
+                          k.normal.y * k.normal.y * system.y.inverse_inertia + turn * turn * system.phi.inverse_inertia;
+  const double rate = k.normal.x * velocity[0] + k.normal.y * velocity[1] + turn * velocity[2];
+  return stiffness * std::abs(rate) * answer_time(stiffness, damping_of(system, face, c, s), mobility);
+}
+
 /// Degree of the polynomials of the positions.
 constexpr int kDegree = Collocation::kStages + 1;
 
@@ -196,15 +208,17 @@ double ImplicitStep::error(double h) const {
   return h * collocation().eigenvalue[0].real() * size;
 }
 
-/// Speed that the polynomial of the velocities at the nodes misses at the start: the one of all motions that the step
-/// passes over, which are over at the nodes.
-double ImplicitStep::speed_missed_at_start() const {
+/// Velocities that the polynomial of those at the nodes misses at the start: of all motions that the step passes over,
+/// which are over at the nodes.
+StageAxes ImplicitStep::velocity_missed_at_start() const {
   const Octet& at_start = stage_table().at_start;
   const State& start = equations_.start();
   const StateOctet& stages = equations_.stages();
-  return equations_.size_of({start.vx - weighted_sum(at_start, stages.vx), start.vy - weighted_sum(at_start, stages.vy),
-                             start.omega - weighted_sum(at_start, stages.omega)});
+  return {start.vx - weighted_sum(at_start, stages.vx), start.vy - weighted_sum(at_start, stages.vy),
+          start.omega - weighted_sum(at_start, stages.omega)};
 }
+
+double ImplicitStep::speed_missed_at_start() const { return equations_.size_of(velocity_missed_at_start()); }
 
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
 /// the missed accelerations is that amplitude, times the square of its rate, which the filter divides by; in the missed
@@ -298,11 +312,15 @@ double ImplicitStep::length_over(const FastMotion& motion, double least, double 
 bool ImplicitStep::keeps_normal_forces(const Segment& segment, const Pins& pins) const {
   if (follows_) return true;
   const Forces& state = equations_.start_forces();
+  const StageAxes missed = velocity_missed_at_start();
   for (std::size_t i = 0; i < static_cast<std::size_t>(segment.loaded_count); ++i) {
     const ContactSeries& contact = segment.loaded[i];
     if (pins[static_cast<std::size_t>(contact.site)].normal > 0) continue;  // N starts from zero
+    const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
     const double of_state = state.contact[i].normal_force, of_step = contact.normal_force[0];
-    if (!(std::abs(of_state - of_step) <= kMostOverForce * std::min(of_state, of_step))) return false;
+    const double of_speed = spring_force_of(system_, equations_.start(), contact.site, face, missed);
+    const double ring = std::hypot(of_state - of_step, of_speed);
+    if (!(ring <= kMostOverForce * std::min(of_state, of_step))) return false;
   }
   return true;
 }

@@ -60,8 +60,8 @@ class ImplicitStep {
   /// normal forces are among them, and the next step follows the base.
   void restart(bool base_rings);
 
-  /// True unless the last step, which filled `segment`, is the first one and begins with a normal force that is not
-  /// within a factor of two of the state's: what it passes over may lift that contact, or make it slide another way.
+  /// True unless the last step, which filled `segment`, is the first one and passes over a ring of a normal force that
+  /// is not small beside it, in place or speed: it may lift that contact, or make it slide another way.
   bool keeps_normal_forces(const Segment& segment, const Pins& pins) const;
 
   /// True when the last step is one at the start of the trial and, as short as an event has made it, ends before the
@@ -78,6 +78,7 @@ class ImplicitStep {
   static constexpr int kStages = Collocation::kStages;
 
   StageAxes missed_at_start() const;
+  StageAxes velocity_missed_at_start() const;
   double speed_missed_at_start() const;
   double error(double h) const;
   bool passes_over_too_much(double h) const;

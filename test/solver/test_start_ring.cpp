@@ -76,6 +76,25 @@ TEST(StartRing, the_speed_of_a_release_is_that_of_the_ring) {
     }
 }
 
+// A part in balance on its base that is thrown up with v rings by v sqrt(k) in N, and lifts off at
+// sin omega t = f0/(v sqrt(k)), however small v, and however near to the balance N begins.
+TEST(StartRing, a_speed_that_lifts_the_part_is_followed) {
+  constexpr double kShare = 4.0;
+  for (const char* solver : {"implicit", "auto"}) {
+    Scene scene = pulled(0.0);
+    scene.excitations.clear();
+    scene.initial.vy = kShare * kPress / std::sqrt(kStiffness);
+    scene.solver.name = solver;
+    scene.solver.tolerance = 1e-4;
+    double lifts = 0.0;
+    test::run(scene, [&](const Segment& g) {
+      for (int i = 0; i < g.event_count; ++i)
+        if (g.events[static_cast<std::size_t>(i)].kind == EventKind::release && lifts == 0.0) lifts = g.end_time();
+    });
+    EXPECT_NEAR(lifts * std::sqrt(kStiffness), std::asin(1.0 / kShare), 1e-5) << solver;
+  }
+}
+
 // What the base has damped by the end of the step is not followed.
 TEST(StartRing, is_passed_over_where_the_base_damps_it) {
   constexpr double kBeforeRelease = 0.002;
