@@ -1,6 +1,7 @@
 // The checker itself: it passes a motion that keeps the laws, and finds every law that is broken in a doctored copy.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -20,6 +21,12 @@ Segment segment_where(const Scene& scene, const std::function<bool(const Segment
     if (wanted(simulation.segment())) return simulation.segment();
   ADD_FAILURE() << "no such segment";
   return {};
+}
+
+bool is_loaded_throughout(const Segment& g) {
+  if (g.loaded_count != 1 || g.duration == 0.0) return false;
+  const auto force = [&](double share) { return value_at(g.loaded[0].normal_force, g.order, share * g.duration); };
+  return std::min(force(0.0), force(1.0)) > 0.7 * force(0.5) && force(0.5) > 1.0;
 }
 
 bool slides_under_load(const Segment& g) {
@@ -65,6 +72,26 @@ TEST_F(DoctoredSegment, with_a_base_force_whose_last_terms_are_too_large) {
   for (int k = segment_.order; k >= 0; --k) terms = terms * h + std::abs(force[static_cast<std::size_t>(k)]);
   force[static_cast<std::size_t>(segment_.order)] += 3e-3 * terms / std::pow(h, segment_.order);
   expect_broken(Invariant::base_pushes);
+}
+
+// What an implicit step passes over changes N by a factor of two at most, and is over at its end.
+TEST_F(DoctoredSegment, with_more_base_force_than_an_implicit_step_passes_over) {
+  scene_ = test::scene_of(test::plain, {"gripper.pressing_force=3", "initial={x: 0.21}"});
+  system_ = make_system(scene_);
+  const Segment before = segment_where(scene_, is_loaded_throughout);
+  const auto check_with = [&](double share_amid, double share_at_end) {
+    segment_ = before;
+    segment_.coarse = true;
+    Series& force = segment_.loaded[0].normal_force;
+    const double h = before.duration, amid = share_amid * value_at(force, before.order, 0.5 * h);
+    force[0] += share_at_end * value_at(force, before.order, h);
+    force[1] += 4.0 * amid / h;
+    force[2] -= 4.0 * amid / (h * h);
+    return check_segment(system_, scene_.solver.tolerance, 1.0, segment_);
+  };
+  EXPECT_FALSE(check_with(0.8, 0.0));
+  EXPECT_TRUE(check_with(1.2, 0.0));
+  EXPECT_TRUE(check_with(0.0, 1e-3));
 }
 
 // What rates are known to: their digits are those of the fastest motion, and with it of the force of the damper.
