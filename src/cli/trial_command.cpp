@@ -207,7 +207,7 @@ class Recorder {
     if (bag_) bag_->write(sample);
   }
 
-  /// Throws std::runtime_error.
+  /// The run is whole: the files get their names. Without it they leave nothing. Throws std::runtime_error.
   void finish(const TrialResult& result) {
     if (csv_) csv_->finish();
     if (bag_) {
@@ -273,14 +273,15 @@ int run_trial(const TrialOptions& options) {
     return 128 + signal;
   }
   const TrialResult result = simulation.result();
+  const bool failed = result.outcome == Outcome::failed;
   std::ostream& out = rows_on_stdout ? std::cerr : std::cout;
-  recorder.finish(result);
+  if (!failed) recorder.finish(result);
 
   out << (options.json ? json_report(result, scene) + "\n" : summary(result, scene)) << std::flush;
   if (!out) throw OutputError("stdout", "the report is lost");
-  if (result.outcome != Outcome::failed) return kExitRan;
-  std::fprintf(stderr, "align: the trial failed at t = %.6g: %s\n", result.final_time * time_unit,
-               result.failure.c_str());
+  if (!failed) return kExitRan;
+  std::fprintf(stderr, "align: the trial failed at t = %.6g: %s%s\n", result.final_time * time_unit,
+               result.failure.c_str(), recorder.wanted() ? "; it leaves no file" : "");
   return kExitFailed;
 }
 

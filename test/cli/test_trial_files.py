@@ -1,6 +1,7 @@
 """`align trial`: the CSV file and the bag that it writes, and what is left when it cannot."""
 
 import csv
+import json
 import os
 import signal
 import subprocess
@@ -173,6 +174,24 @@ class LostFileTest(AlignTestCase):
         self.assertEqual(sorted(os.listdir(self.directory)), ["run.csv", "small.yaml"])
         with open(self.path("run.csv")) as file:
             self.assertEqual(file.read(), "old")
+
+    def test_failed_run_leaves_no_file_and_keeps_the_old_ones(self):
+        path = self.scene(solver={"step_limit": 10})
+        for name in ("run.csv", "run.bag"):
+            self.write(name, "old")
+        process = self.align("trial", path, "--csv", "run.csv", "--bag", "run.bag", "--json")
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(json.loads(process.stdout)["outcome"], "failed")
+        self.assertIn("it leaves no file", process.stderr)
+        self.assertEqual(sorted(os.listdir(self.directory)), ["run.bag", "run.csv", "small.yaml"])
+        for name in ("run.csv", "run.bag"):
+            with open(self.path(name)) as file:
+                self.assertEqual(file.read(), "old")
+
+    def test_failed_run_sends_its_rows_to_a_pipe(self):
+        process = self.align("trial", self.scene(solver={"step_limit": 10}), "--csv", "/dev/stdout")
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(process.stdout.splitlines()[0], ",".join(COLUMNS))
 
 
 class BagTest(AlignTestCase):
