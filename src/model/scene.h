@@ -91,6 +91,9 @@ struct Excitation {
   double sweep_time = 0.0;
 };
 
+/// More than these are not simulated.
+constexpr int kMostExcitations = 16;
+
 /// Start of the trial. y or phi absent: their static equilibrium on the base.
 struct InitialState {
   double x = 0.0;

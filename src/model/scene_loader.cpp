@@ -59,6 +59,7 @@ class SceneReader {
   void read_anchor(TreeReader& gripper);
   void read_base();
   void read_friction();
+  void read_excitations();
   Excitation read_excitation(TreeReader& reader) const;
   double read_amplitude(TreeReader& reader, std::optional<Direction> direction) const;
   void read_trial();
@@ -89,7 +90,7 @@ Scene SceneReader::read() {
   read_base();
   read_friction();
   scene_.weight = number_or_zero(root_, "weight", not_negative_number, Quantity::force);
-  for (TreeReader& excitation : root_.sections("excitation")) scene_.excitations.push_back(read_excitation(excitation));
+  read_excitations();
   read_trial();
   read_solver();
   root_.refuse_unknown_keys();
@@ -242,6 +243,14 @@ void SceneReader::read_friction() {
   scene_.friction->coefficient = friction.required_number("coefficient", not_negative_number);
   scene_.friction->regularization = number(friction, "regularization", positive_number, Quantity::velocity);
   friction.refuse_unknown_keys();
+}
+
+void SceneReader::read_excitations() {
+  for (TreeReader& excitation : root_.sections("excitation")) scene_.excitations.push_back(read_excitation(excitation));
+  const std::size_t count = scene_.excitations.size();
+  if (count > kMostExcitations)
+    root_.fault("excitation", "must be a map or a list of at most " + std::to_string(kMostExcitations) +
+                                  " maps; there are " + std::to_string(count));
 }
 
 Excitation SceneReader::read_excitation(TreeReader& reader) const {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mechanics/drive.h"
+#include "model/scene.h"
 #include "solver/segment.h"
 
 namespace vibratory_alignment {
@@ -11,7 +12,7 @@ namespace vibratory_alignment {
 /// Forces of the excitations as sums over the drives, per axis. Of the forms only the first `count` are made and
 /// copied: room for more costs nothing.
 struct DriveForms {
-  static constexpr int kMax = 16;
+  static constexpr int kMax = kMostExcitations;
   std::array<Direction, kMax> direction{};
   union {
     std::array<DriveForm, kMax> form;

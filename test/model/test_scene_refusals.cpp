@@ -244,6 +244,19 @@ TEST(Refusals, AllFaultsAtOnce) {
   EXPECT_EQ(found.size(), 7u) << "one mistake, one fault";
 }
 
+TEST(Refusals, MoreExcitationsThanAreSimulated) {
+  const auto several = [](int count) {
+    std::string list = "excitation=[";
+    for (int i = 0; i < count; ++i) list += "{amplitude: 1, frequency: 2}, ";
+    return list + "]";
+  };
+  EXPECT_EQ(faults(least, {several(kMostExcitations)}), std::vector<std::string>());
+  EXPECT_EQ(
+      faults(least, {several(17), "slot.clearance=0"}),
+      (std::vector<std::string>{"slot.clearance: 0: must be a number > 0",
+                                "excitation: (a list): must be a map or a list of at most 16 maps; there are 17"}));
+}
+
 TEST(Refusals, EmptySceneNamesAllThatIsRequired) {
   const std::vector<std::string> found = faults("{}");
   for (const char* path :
