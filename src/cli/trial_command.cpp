@@ -22,8 +22,8 @@
 #include "cli/summary.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
-#include "model/solver_choice.h"
 #include "model/solver_names.h"
+#include "model/solver_rules.h"
 #include "model/tree_reader.h"
 #include "node/bag_writer.h"
 #include "trial/sampler.h"
@@ -69,18 +69,15 @@ struct TrialOptions {
   std::string csv, bag;
 };
 
-/// Accepts what a scene accepts as a number > 0.
-std::string check_positive(const std::string& text) {
-  const std::optional<double> value = parse_number(text);
-  if (value && *value > 0.0 && has_sane_size(*value)) return {};
-  return text + " is not allowed: give a number > 0, from 1e-100 to 1e100";
-}
-
-/// Accepts what a scene accepts as solver.accuracy.
-std::string check_accuracy(const std::string& text) {
-  const std::optional<double> value = parse_number(text);
-  if (value && *value >= kFinestAccuracy && *value <= kCoarsestAccuracy) return {};
-  return text + " is not allowed: give a number from 1e-9 to 0.1";
+/// Accepts what a scene accepts under this rule, of numbers > 0.
+CLI::Validator number_by(const NumberRule& rule) {
+  const auto check = [&rule](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    if (!value || !rule.allows(*value)) return text + " is not allowed: give " + rule.text;
+    if (!has_sane_size(*value)) return text + " is not allowed: give " + rule.text + ", of a size from 1e-100 to 1e100";
+    return std::string();
+  };
+  return CLI::Validator(check, "");
 }
 
 std::string solver_list() {
@@ -289,7 +286,7 @@ int run_trial(const TrialOptions& options) {
 
 std::function<int()> set_up_trial(CLI::App& app) {
   const auto options = std::make_shared<TrialOptions>();
-  const CLI::Validator positive(check_positive, "");
+  const CLI::Validator positive = number_by(positive_number);
   app.footer(kFooter);
   app.add_option("SCENE", options->scene,
                  "Scene file (YAML), or the name of a scene that comes with\nthe package, like fig2")
@@ -303,8 +300,8 @@ std::function<int()> set_up_trial(CLI::App& app) {
   CLI::Option* const tolerance = app.add_option("--tolerance", options->tolerance,
                                                 "For solvers that choose their steps: the error that a step may have");
   CLI::Option* const step = app.add_option("--step", options->step, "For rk4, semi_implicit and ode: the step, a time");
-  accuracy->check(CLI::Validator(check_accuracy, ""))->type_name("E")->excludes(step)->excludes(tolerance);
-  tolerance->check(positive)->type_name("E")->excludes(step);
+  accuracy->check(number_by(accuracy_rule))->type_name("E")->excludes(step)->excludes(tolerance);
+  tolerance->check(number_by(tolerance_rule))->type_name("E")->excludes(step);
   step->check(positive)->type_name("H");
   app.add_option("--until", options->until,
                  "Run exactly to this time, whatever happens before. Default: to the\n"

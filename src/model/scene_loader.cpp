@@ -10,6 +10,7 @@
 #include "model/scaling.h"
 #include "model/solver_choice.h"
 #include "model/solver_names.h"
+#include "model/solver_rules.h"
 #include "model/tree_reader.h"
 
 namespace vibratory_alignment {
@@ -22,8 +23,6 @@ const std::vector<std::string> waveform_words = {"sine", "square", "triangle", "
 const std::vector<std::string> contact_words = {"edges", "corners", "walls"};
 
 const NumberRule axial_stiffness_rule = {"1, the unit of stiffness in a dimensionless scene", 1.0, 1.0, true, false};
-const NumberRule tolerance_rule = {"a number > 0 and <= 0.1", 0.0, 0.1, false, false};
-const NumberRule accuracy_rule = {"a number from 1e-9 to 0.1", kFinestAccuracy, kCoarsestAccuracy, true, false};
 
 const char* const only_with_walls = "needs `walls` among the contacts";
 

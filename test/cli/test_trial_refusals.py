@@ -135,6 +135,21 @@ class UsageRefusalTest(AlignTestCase):
                 with self.subTest(option=option, value=value):
                     self.refuse([option, value], option)
 
+    def test_numbers_of_the_solver_name_option_value_and_range(self):
+        for option, value, allowed in (
+            ("--tolerance", "1", "a number > 0 and <= 0.1"),
+            ("--tolerance", "0", "a number > 0 and <= 0.1"),
+            ("--tolerance", "1e-101", "from 1e-100 to 1e100"),
+            ("--accuracy", "1", "a number from 1e-9 to 0.1"),
+            ("--accuracy", "0", "a number from 1e-9 to 0.1"),
+            ("--step", "0", "a number > 0"),
+            ("--step", "1e101", "from 1e-100 to 1e100"),
+        ):
+            with self.subTest(option=option, value=value):
+                message = self.assert_refused(["trial", self.scene(), option, value], option + ": " + value, allowed)
+                self.assertNotIn("solver.", message)
+                self.assertNotIn(".yaml", message)
+
     def test_step_of_a_solver_that_chooses_its_steps(self):
         self.refuse(["--step", "1e-3"], "--step", "--tolerance")
 
