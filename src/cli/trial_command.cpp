@@ -33,7 +33,6 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr double kSamplesPerPeriod = 20.0;  ///< of the fastest excitation, without --sample
-constexpr double kMaxSamples = 1e9;
 
 constexpr char kFooter[] = R"(Examples:
   align trial fig2                               the paper's alignment trial, which comes with the package
@@ -170,7 +169,7 @@ void check_outputs(const TrialOptions& options, const std::string& scene_file) {
 double sample_interval(const TrialOptions& options, const Scene& scene, double end) {
   const double interval = options.sample ? *options.sample / output_units(scene).time
                                          : 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod;
-  if (end / interval > kMaxSamples) {
+  if (end / interval > kMostSamples) {
     throw UsageError("--sample: the run would have more than 1e9 samples; give a longer interval");
   }
   return interval;

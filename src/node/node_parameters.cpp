@@ -4,10 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "model/number_text.h"
 #include "model/scaling.h"
 #include "model/tree_reader.h"
 #include "node/frames.h"
 #include "node/messages.h"
+#include "trial/sampler.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -88,6 +90,14 @@ class Reader {
 
 bool positive(double value) { return value > 0.0; }
 
+/// At most kMostSamples until the scene's time limit.
+std::optional<double> read_sample_interval(Reader& reader, const Scene& scene) {
+  const double least = scene.trial.time_limit * output_units(scene).time / kMostSamples;
+  const std::string rule = "must be a number of at least " + number_text(least) +
+                           ", in the scene's unit of time: a trial has at most 1e9 samples";
+  return reader.number("sample_interval", rule.c_str(), [&](double value) { return value >= least; });
+}
+
 }  // namespace
 
 const std::vector<std::string>& topic_names() {
@@ -112,8 +122,7 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
                               .value_or(usual_time_scale(scene));
   parameters.publish_rate =
       reader.number("publish_rate", "must be a number > 0 [1/s]", positive).value_or(parameters.publish_rate);
-  parameters.sample_interval =
-      reader.number("sample_interval", "must be a number > 0, in the scene's unit of time", positive);
+  parameters.sample_interval = read_sample_interval(reader, scene);
   parameters.autostart = reader.flag("autostart", parameters.autostart);
   parameters.exit_when_done = reader.flag("exit_when_done", parameters.exit_when_done);
   parameters.linger = reader.number("linger", "must be a number >= 0 [s]", [](double value) { return value >= 0.0; })

@@ -39,6 +39,9 @@ struct Sample {
   double progress = 0.0;      ///< 0 at the start, 1 when the part has reached the clearance of the slot, from |x|
 };
 
+/// A run of more samples than these is nothing that can be waited for or stored: those who ask for it are refused.
+constexpr double kMostSamples = 1e9;
+
 class Sampler {
  public:
   static constexpr long kSegmentsUnasked = 1000;

@@ -89,6 +89,10 @@ class BadStart(unittest.TestCase):
             self.assert_refused('/bad/' + name)
             rospy.delete_param('/bad')
 
+    def test_more_samples_than_ever_end(self):
+        rospy.set_param('/bad', {'scene': self.scene, 'sample_interval': 1e-12, 'time_scale': 0})
+        self.assert_refused('/bad/sample_interval: ', 'must be', 'at least', '1e9 samples')
+
     def test_unknown_parameters_are_named(self):
         rospy.set_param('/bad', {'scene': self.scene, 'time_scale': -1.0, 'publish_rat': 50.0, 'colour': 'red',
                                  'amplitude': 1.0, 'align': {'status_list_timeout': 5.0}})
