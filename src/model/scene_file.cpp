@@ -9,6 +9,8 @@
 #include <optional>
 #include <sstream>
 
+#include "model/nearest_word.h"
+#include "model/scene_keys.h"
 #include "model/scene_loader.h"
 #include "model/tree_reader.h"
 
@@ -134,18 +136,23 @@ class Setting {
   Setting(const std::string& source, const std::vector<std::string>& keys, const YAML::Node& value)
       : source_(source), keys_(keys), value_(value) {}
 
-  YAML::Node applied_to(const YAML::Node& node, std::size_t level = 0) const {
+  /// `above` leads to the node, as a key path without positions in lists.
+  YAML::Node applied_to(const YAML::Node& node, std::size_t level = 0, const std::string& above = "") const {
     if (level == keys_.size()) return value_;
-    if (!node.IsDefined() || node.IsNull()) return in_map(YAML::Node(YAML::NodeType::Map), level);
-    if (node.IsMap()) return in_map(node, level);
-    if (node.IsSequence()) return in_list(node, level);
+    if (!node.IsDefined() || node.IsNull()) {
+      const YAML::Node changed = in_map(YAML::Node(YAML::NodeType::Map), level, above);
+      return node.IsDefined() && value_.IsNull() ? node : changed;
+    }
+    if (node.IsMap()) return in_map(node, level, above);
+    if (node.IsSequence()) return in_list(node, level, above);
     fail("what stands above " + keys_[level] + " is neither a map nor a list");
   }
 
  private:
   bool removes_at(std::size_t level) const { return level + 1 == keys_.size() && value_.IsNull(); }
 
-  YAML::Node in_map(const YAML::Node& map, std::size_t level) const {
+  YAML::Node in_map(const YAML::Node& map, std::size_t level, const std::string& above) const {
+    const std::string place = (above.empty() ? "" : above + ".") + keys_[level];
     YAML::Node copy(YAML::NodeType::Map);
     bool found = false;
     for (const auto& entry : map) {
@@ -154,14 +161,23 @@ class Setting {
       if (!here)
         copy.force_insert(entry.first, entry.second);
       else if (!removes_at(level))
-        copy.force_insert(entry.first, applied_to(entry.second, level + 1));
+        copy.force_insert(entry.first, applied_to(entry.second, level + 1, place));
     }
-    if (!found && value_.IsNull()) fail("there is no such key to take out");
-    if (!found) copy.force_insert(keys_[level], applied_to(YAML::Node(), level + 1));
+    if (!found && value_.IsNull()) refuse_unknown(place, level);
+    if (!found && !value_.IsNull()) copy.force_insert(keys_[level], applied_to(YAML::Node(), level + 1, place));
     return copy;
   }
 
-  YAML::Node in_list(const YAML::Node& list, std::size_t level) const {
+  /// What is not there need not be taken out, but it must be something that a scene could have. `place` ends with the
+  /// key of this level.
+  void refuse_unknown(std::string place, std::size_t level) const {
+    for (std::size_t below = level + 1; below < keys_.size(); ++below) place += "." + keys_[below];
+    const std::vector<std::string>& known = scene_keys();
+    if (std::find(known.begin(), known.end(), place) == known.end())
+      fail("there is no such key to take out" + did_you_mean(place, known));
+  }
+
+  YAML::Node in_list(const YAML::Node& list, std::size_t level, const std::string& above) const {
     const std::optional<double> index = parse_number(keys_[level]);
     bool found = false;
     YAML::Node copy(YAML::NodeType::Sequence);
@@ -171,7 +187,7 @@ class Setting {
       if (!here)
         copy.push_back(list[i]);
       else if (!removes_at(level))
-        copy.push_back(applied_to(list[i], level + 1));
+        copy.push_back(applied_to(list[i], level + 1, above));
     }
     if (!found) fail("the list has " + std::to_string(list.size()) + " entries, counted from 0: no " + keys_[level]);
     return copy;

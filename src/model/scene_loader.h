@@ -29,10 +29,10 @@ YAML::Node read_yaml_file(const std::string& path);
 
 /// Does what --set does: puts the value, itself YAML, at a key path ("friction.coefficient=0.3",
 /// "excitation.1.phase=0.5", "contacts=[edges, corners]"; list entries count from 0), making sections that are not
-/// there yet. The value null takes the key out: its effect is not simulated. `tree` is then a new tree that shares the
-/// unchanged parts with the old one; other handles to the old one see no change (YAML::Clone it first for use by
-/// another thread). Throws SceneError when `assignment` is not "key.path=value" or leads through something that is not
-/// a map or list.
+/// there yet. The value null takes the key out, if it is there: its effect is not simulated. `tree` is then a new tree
+/// that shares the unchanged parts with the old one; other handles to the old one see no change (YAML::Clone it first
+/// for use by another thread). Throws SceneError when `assignment` is not "key.path=value", leads through something
+/// that is not a map or list, or takes out a key that no scene has.
 void apply_setting(YAML::Node& tree, const std::string& assignment);
 
 /// The same with key path and value apart. `source` names the place that asks for it in messages.

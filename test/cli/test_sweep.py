@@ -87,6 +87,14 @@ class TableTest(SweepTestCase):
         self.assertEqual(rows[2]["end_time"], "")
         self.assertRegex(text, r"refused +2 +50.00 %\n +first: trial 2: slot.clearance: 0")
 
+    def test_null_is_fine_where_the_scene_has_no_such_key(self):
+        solvers = {"solver.name": ["event", "rk4"], "solver.step": [None, 1e-3]}
+        self.sweep(self.study(vary=[solvers], without=["samples"]), "--csv", "out.csv")
+        self.assertEqual([(row["solver.step"], row["reason"]) for row in self.rows("out.csv")],
+                         [("null", ""), ("0.001", "")])
+        misspelt = self.study(vary=[{"solver.stepp": [None, 1e-3]}], without=["samples"])
+        self.assert_refused(["sweep", misspelt], "no such key to take out", "did you mean solver.step?")
+
     def test_is_in_the_units_of_an_si_scene(self):
         study = self.study(
             scene="gripper_si", set={}, vary=[{"friction.coefficient": [0.15, 0.2]}], without=["samples"]

@@ -218,6 +218,25 @@ TEST(Settings, ReplaceAddAndTakeOut) {
   EXPECT_EQ(scene.gripper.anchor_y, 0.7);
 }
 
+TEST(Settings, WhatIsNotThereNeedNotBeTakenOut) {
+  for (const char* key : {"friction", "friction.coefficient", "solver.step", "gripper.anchor.y", "part.mass"})
+    EXPECT_EQ(scene_text::faults(least, {std::string(key) + "=null"}), std::vector<std::string>()) << key;
+  const std::string two = "excitation=[{amplitude: 1, frequency: 2}, {amplitude: 3, frequency: 4}]";
+  EXPECT_EQ(scene_text::faults(least, {two, "excitation.1.phase=null"}), std::vector<std::string>());
+  const std::string empty_section = least + "\nfriction:\n";
+  EXPECT_EQ(scene_text::faults(empty_section, {"friction.coefficient=null"}), scene_text::faults(empty_section));
+}
+
+TEST(Settings, TakenOutByAMisspeltNameAreRefusedWithAGuess) {
+  YAML::Node tree = YAML::Load(least);
+  try {
+    apply_setting(tree, "solver.stepp=null");
+    ADD_FAILURE() << "was taken";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean solver.step?"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Settings, ReachIntoLists) {
   const std::string two = "excitation=[{amplitude: 1, frequency: 2}, {amplitude: 3, frequency: 4}]";
   EXPECT_EQ(load(least, {two, "excitation.1.phase=0.5"}).excitations[1].phase, 0.5);
@@ -244,7 +263,7 @@ TEST(Settings, ThatMakeNoSenseAreRefused) {
   for (const char* assignment :
        {"", "=", "=1", "part", "part.half_width", "part.half_width=", "part.half_width= ", ".part=1", "part.=1",
         "part..half_width=1", "part.half_width.more=1", "contacts.edges=1", "contacts.1=walls", "contacts.-1=walls",
-        "friction=null", "friction.coefficient=null", "part={", "part=[*none]", "part=&a [*a]"}) {
+        "frction=null", "excitation.0.phase=null", "part={", "part=[*none]", "part=&a [*a]"}) {
     YAML::Node tree = YAML::Load(least);
     try {
       apply_setting(tree, assignment);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "model/scene_keys.h"
 #include "scene_text.h"
 
 namespace vibratory_alignment {
@@ -89,6 +90,15 @@ TEST(ScenePage, names_none_that_the_loader_does_not_know) {
         unknown += fault.rfind(key + ": ", 0) == 0 && fault.find("unknown key") != std::string::npos;
     EXPECT_LT(unknown, 2) << key;
   }
+}
+
+TEST(ScenePage, names_the_keys_that_can_be_taken_out) {
+  std::set<std::string> keys;
+  for (std::string key : documented_keys()) {
+    keys.insert(key);
+    for (std::size_t dot; (dot = key.rfind('.')) != std::string::npos; keys.insert(key)) key.resize(dot);
+  }
+  EXPECT_EQ(std::set<std::string>(scene_keys().begin(), scene_keys().end()), keys);
 }
 
 TEST(ScenePage, shows_a_scene_that_can_be_run) {

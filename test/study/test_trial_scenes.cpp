@@ -99,11 +99,19 @@ TEST(TrialScenes, ARefusedOneDoesNotSpoilTheNext) {
   EXPECT_EQ(scenes.at(2).solver.name, "implicit");
   EXPECT_THROW(scenes.at(3), SceneError);
   EXPECT_EQ(scenes.at(6).slot.clearance, 0.2);
-  // one that cannot even be put into the tree: the scene has no weight that could be taken out
-  TrialScenes weights(study_of("vary: [{weight: [1, null]}]"));
-  EXPECT_EQ(weights.at(0).weight, 1.0);
-  EXPECT_THROW(weights.at(1), SceneError);
-  EXPECT_EQ(weights.at(0).weight, 1.0);
+  // one that cannot even be put into the tree: there is no weight to add the offset to
+  TrialScenes weights(study_of("vary: [{weight: [1, null]}, {weight: {from: 0, to: 1, count: 2, as: offset}}]"));
+  EXPECT_EQ(weights.at(1).weight, 2.0);
+  EXPECT_THROW(weights.at(2), SceneError);
+  EXPECT_EQ(weights.at(1).weight, 2.0);
+}
+
+TEST(TrialScenes, NullIsFineWhereTheSceneHasNoSuchKey) {
+  TrialScenes scenes(study_of("vary: [{solver.name: [event, rk4], solver.step: [null, 1.0e-4]}, {weight: [null, 1]}]"));
+  EXPECT_FALSE(scenes.at(0).solver.step);
+  EXPECT_EQ(scenes.at(0).weight, 0.0);
+  EXPECT_EQ(scenes.at(1).weight, 1.0);
+  EXPECT_EQ(scenes.at(2).solver.step, 1.0e-4);
 }
 
 TEST(TrialScenes, ReachIntoLists) {
