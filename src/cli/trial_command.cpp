@@ -295,7 +295,9 @@ std::function<int()> set_up_trial(CLI::App& app) {
       ->type_name("NAME");
   CLI::Option* const accuracy = app.add_option("--accuracy", options->accuracy,
                                                "Choose solver and tolerance so that x, y, phi at the end are exact to\n"
-                                               "this, dimensionless; with --solver the tolerance alone");
+                                               "this, dimensionless; with --solver the tolerance alone. Where impacts\n"
+                                               "amplify the last digits of a double beyond it no tolerance keeps it:\n"
+                                               "`align accuracy` tells");
   CLI::Option* const tolerance = app.add_option("--tolerance", options->tolerance,
                                                 "For solvers that choose their steps: the error that a step may have");
   CLI::Option* const step = app.add_option("--step", options->step, "For rk4, semi_implicit and ode: the step, a time");

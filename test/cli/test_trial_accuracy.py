@@ -49,6 +49,10 @@ class TrialAccuracyTest(AlignTestCase):
         process = self.align("trial", self.scene(), "--accuracy", "1e-6")
         self.assertIn("event, tolerance 1e-08, for accuracy 1e-06;", process.stdout)
 
+    def test_help_tells_where_it_cannot_be_kept(self):
+        words = " ".join(self.align("trial", "--help").stdout.split())
+        self.assertIn("no tolerance keeps it: `align accuracy` tells", words)
+
     def test_without_it_nothing_is_said(self):
         self.assertNotIn("accuracy", self.trial(self.scene())["solver"])
 
