@@ -22,6 +22,7 @@ constexpr double kNoVelocity = 1e-18, kNoThird = 1e-6;
 void FreeMotion::begin(const Axis& axis, double q, double v, double constant_force) {
   axis_ = axis;
   start_q_ = q;
+  if (!axis_.moves) return;
   start_v_ = v;
   constant_ = constant_force;
   slope_ = 0.0;
@@ -31,7 +32,6 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
   driven_ = {};
   driven_rate_ = own_rate_ = 0.0;
   fading_ = {};
-  if (!axis_.moves) return;
   const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
   decay_ = 0.5 * h / m;
   // (a - w)(a + w) loses no digits near critical damping
@@ -42,9 +42,10 @@ void FreeMotion::begin(const Axis& axis, double q, double v, double constant_for
 }
 
 void FreeMotion::add(const DriveForm& form) {
+  if (!axis_.moves) return;
   constant_ += form.constant;
   slope_ += form.slope;
-  if (form.amplitude == 0.0 || !axis_.moves) return;
+  if (form.amplitude == 0.0) return;
   if (form.rate != 0.0) exact_ = false;
   // steady response: (k - m nu^2) and h nu act on sin and cos
   const double nu = form.frequency;

@@ -90,11 +90,13 @@ class Reader {
 
 bool positive(double value) { return value > 0.0; }
 
-/// At most kMostSamples until the scene's time limit.
-std::optional<double> read_sample_interval(Reader& reader, const Scene& scene) {
+/// As fast as possible at most kMostSamples until the scene's time limit; beside a clock a trial may go on for ever.
+std::optional<double> read_sample_interval(Reader& reader, const Scene& scene, double time_scale) {
+  if (time_scale > 0.0)
+    return reader.number("sample_interval", "must be a number > 0, in the scene's unit of time", positive);
   const double least = scene.trial.time_limit * output_units(scene).time / kMostSamples;
   const std::string rule = "must be a number of at least " + number_text(least) +
-                           ", in the scene's unit of time: a trial has at most 1e9 samples";
+                           ", in the scene's unit of time: with time_scale 0 a trial has at most 1e9 samples";
   return reader.number("sample_interval", rule.c_str(), [&](double value) { return value >= least; });
 }
 
@@ -122,7 +124,7 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
                               .value_or(usual_time_scale(scene));
   parameters.publish_rate =
       reader.number("publish_rate", "must be a number > 0 [1/s]", positive).value_or(parameters.publish_rate);
-  parameters.sample_interval = read_sample_interval(reader, scene);
+  parameters.sample_interval = read_sample_interval(reader, scene, parameters.time_scale);
   parameters.autostart = reader.flag("autostart", parameters.autostart);
   parameters.exit_when_done = reader.flag("exit_when_done", parameters.exit_when_done);
   parameters.linger = reader.number("linger", "must be a number >= 0 [s]", [](double value) { return value >= 0.0; })

@@ -17,7 +17,8 @@ void Flight::begin(const System& system, const State& state, const DriveForms& d
   for (FreeMotion* axis : axes) axis->settle(waves_);
 }
 
-void Flight::at(double t, const Waves::Values& waves, State& state) const {
+/// Inlined in both: a call costs more than axes that do not move.
+VIBRATORY_ALIGNMENT_INLINE void Flight::at(double t, const Waves::Values& waves, State& state) const {
   if (x_.exact()) x_.at(t, waves, state.x, state.vx);
   if (y_.exact()) y_.at(t, waves, state.y, state.vy);
   if (phi_.exact()) phi_.at(t, waves, state.phi, state.omega);

@@ -28,7 +28,12 @@ FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
   return {system_, motion, longest};
 }
 
-PointMotion FlightView::point(Site site) const {
+Vec2 FlightView::corner_arm(Site site) const {
+  const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
+  return {beta * tilt_.cos + b * tilt_.sin, beta * tilt_.sin - b * tilt_.cos};
+}
+
+VIBRATORY_ALIGNMENT_INLINE PointMotion FlightView::point_without_turning(Site site) const {
   const auto [c, s] = tilt_;
   PointMotion m;
   m.jerk = x_.bounds.third + y_.bounds.third;
@@ -38,15 +43,25 @@ PointMotion FlightView::point(Site site) const {
     m.p = {rx * c + ry * s, ry * c - rx * s};
     m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
     m.acceleration = {-(x_.acceleration * c + y_.acceleration * s), x_.acceleration * s - y_.acceleration * c};
-    if (system_.phi.moves) turn_edge(m);
   } else {
-    const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-    const Vec2 r{beta * c + b * s, beta * s - b * c};
+    const Vec2 r = corner_arm(site);
     m.p = {state_.x + r.x, state_.y + r.y};
     m.rate = {state_.vx, state_.vy};
     m.acceleration = {x_.acceleration, y_.acceleration};
-    if (system_.phi.moves) turn_corner(r, m);
   }
+  return m;
+}
+
+PointMotion FlightView::point(Site site) const {
+  return system_.phi.moves ? turning_point(site) : point_without_turning(site);
+}
+
+PointMotion FlightView::turning_point(Site site) const {
+  PointMotion m = point_without_turning(site);
+  if (is_edge(site))
+    turn_edge(m);
+  else
+    turn_corner(corner_arm(site), m);
   return m;
 }
 

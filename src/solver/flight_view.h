@@ -50,9 +50,13 @@ class FlightView {
   double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
 
  private:
+  /// From the mass centre to a corner.
+  Vec2 corner_arm(Site site) const;
+  PointMotion point_without_turning(Site site) const;
   // not inlined: what does not turn is not to pay for room that turning takes
-  [[gnu::noinline]] void turn_edge(PointMotion& motion) const;
-  [[gnu::noinline]] void turn_corner(const Vec2& r, PointMotion& motion) const;
+  [[gnu::noinline]] PointMotion turning_point(Site site) const;
+  void turn_edge(PointMotion& motion) const;
+  void turn_corner(const Vec2& r, PointMotion& motion) const;
   void add_turning_jerk(double reach, PointMotion& motion) const;
 
   const System& system_;
