@@ -56,7 +56,7 @@ class AccuracyTest(AlignTestCase):
                 self.assertEqual(file.read(len(begin)), begin, name)
 
     def test_steps_are_in_the_scenes_own_unit_of_time(self):
-        text, rows = self.study("--solvers", "rk4", scene="gripper_si")
+        text, rows = self.study("--solvers", "rk4", "--set", "trial.time_limit=5e-3", scene="gripper_si")
         self.assertIn("; steps in s\n", text)
         # a hundredth of a period of 150 Hz
         self.assertAlmostEqual(float(rows[0]["setting"]), 0.01 / 150.0, delta=1e-9)
