@@ -160,9 +160,9 @@ std::optional<AccuracyReference> run_study(const Scene& scene, const Options& op
   AccuracyOptions study;
   study.solvers = options.solvers;
   try {
-    runs = run_accuracy_study(scene, *reference, study, go_on, [&](double done, const AccuracyRun& next) {
+    runs = run_accuracy_study(scene, *reference, study, go_on, [&](double done, const AccuracyRun* next) {
       share = done;
-      words = next.solver + format(", %.0e", own_setting(scene, next));
+      words = next != nullptr ? next->solver + format(", %.0e", own_setting(scene, *next)) : "times, in turns";
     });
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());

@@ -40,7 +40,8 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
   Octet fx = drive.x - system.x.damping * q.vx - system.x.stiffness * (q.x - system.x.anchor);
   Octet fy = drive.y - system.y.damping * q.vy - system.y.stiffness * (q.y - system.y.anchor) - system.weight;
   Octet moment = drive.phi - system.phi.damping * q.omega - system.phi.stiffness * (q.phi - system.phi.anchor);
-  const double friction = system.friction, layer = system.regularization;
+  // as numbers: a build without friction has constants of another type in their place (bench/effects)
+  const double friction = system.friction, regularization = system.regularization;
   Octet c, s;
   tilts_of(q.phi, c, s);
   int sticking_count = 0;
@@ -77,7 +78,7 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
       case Slip::plus: ratio = -friction; break;
       case Slip::minus: ratio = friction; break;
       case Slip::regularized: {
-        const Octet share = slip_velocity / layer;
+        const Octet share = slip_velocity / regularization;
         Octet tanh;
         tanh_of(share.low, tanh.low);
         tanh_of(share.high, tanh.high);

@@ -189,6 +189,7 @@ AccuracyReference find_reference(const Scene& scene, const GoOn& go_on) {
   return reference;
 }
 
+/// True for a solver that this build has.
 bool is_built(const Scene& scene, const SolverName& solver) {
   try {
     Simulation(with_solver(scene, solver.name, kCoarsestTolerance, solver.fixed_step));
@@ -228,14 +229,14 @@ std::optional<AccuracyReference> accuracy_reference(const Scene& scene, const Go
 
 std::vector<AccuracyRun> run_accuracy_study(const Scene& scene, const AccuracyReference& reference,
                                             const AccuracyOptions& options, const GoOn& go_on,
-                                            const std::function<void(double, const AccuracyRun&)>& progress) {
+                                            const std::function<void(double, const AccuracyRun*)>& progress) {
   std::vector<AccuracyRun> runs = runs_of(scene, options);
   Stopwatch stopwatch(reference, options.seconds_per_run);
   try {
     std::string slow;  // solver whose last run was too long for finer ones
     for (std::size_t i = 0; i < runs.size(); ++i) {
       AccuracyRun& run = runs[i];
-      progress(static_cast<double>(i) / static_cast<double>(runs.size()), run);
+      progress(static_cast<double>(i) / static_cast<double>(runs.size()), &run);
       if (run.solver == slow) {
         run.failure = "left out: a coarser one took too long";
         continue;
@@ -245,6 +246,7 @@ std::vector<AccuracyRun> run_accuracy_study(const Scene& scene, const AccuracyRe
       if (run.cpu_seconds > options.longest_run) slow = run.solver;
       if (run.failure.empty()) stopwatch.add(with_setting, i);
     }
+    progress(1.0, nullptr);
     stopwatch.time(go_on, runs);
   } catch (const Stopped&) {
     runs.clear();

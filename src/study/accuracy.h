@@ -56,10 +56,11 @@ struct AccuracyOptions {
 std::optional<AccuracyReference> accuracy_reference(const Scene& scene, const GoOn& go_on);
 
 /// All runs, solver by solver, coarse to fine; none when it is not to go on. `progress` is told which run comes next,
-/// and the share of all that are done. Throws std::invalid_argument for a solver that is named and not in this build.
+/// null when all are to be timed, and the share of all that are done. Throws std::invalid_argument for a solver that is
+/// named and not in this build.
 std::vector<AccuracyRun> run_accuracy_study(const Scene& scene, const AccuracyReference& reference,
                                             const AccuracyOptions& options, const GoOn& go_on,
-                                            const std::function<void(double, const AccuracyRun&)>& progress);
+                                            const std::function<void(double, const AccuracyRun*)>& progress);
 
 /// The fastest run whose error, and that of all finer runs of its solver that have an answer, is at most `error`; null
 /// when there is none.

@@ -58,7 +58,7 @@ TEST(Accuracy, what_ends_with_a_touch_is_compared_before_it) {
   AccuracyOptions options;
   options.solvers = {"event"};
   options.seconds_per_run = 0.0;
-  const auto quiet = [](double, const AccuracyRun&) {};
+  const auto quiet = [](double, const AccuracyRun*) {};
   const std::vector<AccuracyRun> runs = run_accuracy_study(scene, *reference, options, always, quiet);
   ASSERT_FALSE(runs.empty());
   for (const AccuracyRun& run : runs) {
@@ -76,7 +76,7 @@ TEST(Accuracy, finer_runs_after_one_that_took_too_long_are_left_out) {
   options.solvers = {"event", "implicit"};
   options.seconds_per_run = 0.0;
   options.longest_run = 0.0;
-  const auto quiet = [](double, const AccuracyRun&) {};
+  const auto quiet = [](double, const AccuracyRun*) {};
   for (const AccuracyRun& run : run_accuracy_study(scene, *reference, options, always, quiet))
     EXPECT_EQ(run.failure.empty(), run.setting == 1e-1) << run.solver << " " << run.setting;
 }
@@ -87,7 +87,7 @@ TEST(Accuracy, ends_where_it_is_not_to_go_on) {
   const std::optional<AccuracyReference> reference = accuracy_reference(scene, always);
   ASSERT_TRUE(reference);
   long asked = 0;
-  const auto quiet = [](double, const AccuracyRun&) {};
+  const auto quiet = [](double, const AccuracyRun*) {};
   EXPECT_TRUE(run_accuracy_study(
                   scene, *reference, {}, [&] { return ++asked < 1000; }, quiet)
                   .empty());
