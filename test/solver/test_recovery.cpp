@@ -287,7 +287,7 @@ TEST(Recovery, beside_a_face_that_turns_is_the_same_with_fixed_steps) {
   const Scene exact = test::scene_of(turning, {"trial.time_limit=2.2"});
   Scene stepped = exact;
   stepped.solver.name = "rk4";
-  stepped.solver.step = 2e-6;
+  stepped.solver.step = 1e-5;
   EXPECT_LT(test::distance(test::run(stepped).final_state, test::run(exact).final_state), 1e-6);
 }
 
