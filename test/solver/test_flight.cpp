@@ -454,7 +454,7 @@ TEST(Flight, no_other_point_touches_before_a_landing) {
       ASSERT_LE(deepest(system, inside), 1e-13) << "seed " << seed;
     }
   }
-  EXPECT_GT(landings, 250);
+  EXPECT_GT(landings, 1000);
 }
 
 }  // namespace
