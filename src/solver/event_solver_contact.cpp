@@ -304,7 +304,7 @@ void EventSolver::settle(double gone, double longest) {
   if (choice_.implicit())
     choice_.settle_implicit(gone, longest, spent(), follows_base_);
   else
-    choice_.settle_series(gone, longest);
+    choice_.settle_series(gone, longest, found_.count > 0);
 }
 
 }  // namespace vibratory_alignment

@@ -42,13 +42,18 @@ constexpr double kPower = 0.03;
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
 constexpr double kTrialShare = 0.16, kMostCredit = 130.0;
 
-/// What a trial asks for, as a multiple of a usual implicit step: any, and the first one in the tanh layer, unless the
-/// series have to go for so much on the way to the next kink.
-constexpr double kTrial = 0.8, kFirstTrialInLayer = 1.2, kLongWay = 85.0;
+/// What a trial asks for, as a multiple of a usual implicit step; and in the tanh layer.
+constexpr double kTrial = 0.8, kTrialInLayer = 1.2;
 
 /// Length of a trial at most, as a multiple of the one that would pay, and the same that an implicit step is to have
 /// where it is taken again once the base rings no more.
 constexpr double kTrialGain = 10.0, kResumeGain = 1.5;
+
+/// Outside the layer an implicit step is tried early where it may become this many times as long as would pay: after so
+/// many steps of the series in the same contacts, of which the last one has grown by no more than this. Its length at
+/// most, as a multiple of the one that would pay.
+constexpr double kEarlyGain = 6.0, kSteady = 1.02, kEarlyLength = 2.5;
+constexpr int kEarlyAfter = 4;
 
 /// Series steps before that is tried again where it was given up; after each further time twice as many, until an
 /// ordinary trial comes sooner.
@@ -61,8 +66,8 @@ constexpr double kGrowingSteps = 4.0, kMostGrown = 4.0;
 constexpr int kTrialAfter = 10, kPaceKnown = 6, kPaceSteps = 32;
 
 /// Evaluations of the forces after which an implicit step is given up: any, and a trial; in between, what there is
-/// credit for. The first trial outside the layer, which comes early, is given up sooner.
-constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 80, kMostEasyTrialEvaluations = 30;
+/// credit for. A trial in the layer, and the first one outside of it, which asks for less, is given up sooner.
+constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 80, kMostInLayer = 40, kMostEasyTrialEvaluations = 30;
 
 /// Shortest trial, as a multiple of what the series go for a cost of 1.
 constexpr double kShortestTrial = 1.2;
@@ -111,17 +116,25 @@ double MethodChoice::pace() const {
   return way;
 }
 
+/// The same for steps of the series to come: where a ring decays they grow, and go on to.
+double MethodChoice::way_ahead() const {
+  const double grown = way_before_ > 0.0 ? std::pow(last_way_ / way_before_, kGrowingSteps) : kUndisturbed;
+  return std::max(pace(), std::clamp(grown, kUndisturbed, kMostGrown) * last_way_);
+}
+
 void MethodChoice::leave_to_series(int steps) {
   implicit_ = false;
   implicit_steps_ = 0;
   next_question_ = kFirstQuestion;
-  series_steps_ = 0;
+  series_steps_ = steps_alike_ = 0;
   last_way_ = 0.0;
   patience_ = steps;
 }
 
 void MethodChoice::look_at(const ContactStates& contacts) {
-  kind_ = kind_of(contacts);
+  const std::size_t kind = kind_of(contacts);
+  if (kind != kind_) steps_alike_ = 0;
+  kind_ = kind;
   if (implicit_ && pace() == 0.0) leave_to_series(kPaceKnown);
 }
 
@@ -137,42 +150,53 @@ void MethodChoice::start_passing_over(double step) {
   attempt_ = Attempt::passes_over;
 }
 
+/// True when an implicit step that may become this long is worth trying before an ordinary trial is due.
+bool MethodChoice::may_start_early(double length) const {
+  const bool is_steady = steps_alike_ >= kEarlyAfter && last_way_ <= kSteady * way_before_;
+  return kind_ < kInLayer && is_steady && series_steps_ >= wait_ && credit_ >= 0.0 &&
+         length >= kEarlyGain * kKind[kind_].usual_implicit() * way_ahead();
+}
+
 bool MethodChoice::may_start(double longest) const {
   // where events coincide the series go nowhere, and say nothing
-  if (implicit_ || last_way_ == 0.0 || pace() == 0.0) return false;
-  const bool soon = tried_ || kind_ < kInLayer || longest > kLongWay * pace();
-  const double needed = (soon ? kTrial : kFirstTrialInLayer) * kKind[kind_].usual_implicit();
+  if (implicit_ || last_way_ == 0.0) return false;
+  if (may_start_early(longest)) return true;
+  if (pace() == 0.0) return false;
+  const double needed = (kind_ < kInLayer ? kTrial : kTrialInLayer) * kKind[kind_].usual_implicit();
   return credit_ >= needed && ((paid_ && series_steps_ >= wait_) || series_steps_ >= patience_);
 }
 
 bool MethodChoice::starts(double length_over_ring, double longest) {
   if (length_over_ring <= 0.0) return false;
-  // where the ring decays the steps of the series grow, and go on to
-  const double grown = way_before_ > 0.0 ? std::pow(last_way_ / way_before_, kGrowingSteps) : kUndisturbed;
-  const double way = std::max(pace(), std::clamp(grown, kUndisturbed, kMostGrown) * last_way_);
+  const double way = way_ahead();
   const double usual = kKind[kind_].usual_implicit();
   const double length = std::min(length_over_ring, longest);
   const bool resumes = paid_ && series_steps_ >= wait_ && length > kResumeGain * usual * way;
-  if (!resumes && (series_steps_ < patience_ || length <= kShortestTrial * pace())) return false;
-  attempt_ = tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
+  const bool is_early = !resumes && may_start_early(length);
+  if (!resumes && !is_early && (series_steps_ < patience_ || length <= kShortestTrial * pace())) return false;
+  attempt_ = is_early ? Attempt::early_trial : tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
-  if (resumes) paces_[kind_] = {way, std::max(paces_[kind_].steps, kPaceKnown)};
+  if (resumes || is_early) paces_[kind_] = {way, std::max(paces_[kind_].steps, kPaceKnown)};
   resumed_length_ = resumes ? length_over_ring : 0.0;
   return true;
 }
 
 double MethodChoice::trial_length() const {
-  return resumed_length_ > 0.0 ? resumed_length_ : kTrialGain * kKind[kind_].usual_implicit() * pace();
+  if (resumed_length_ > 0.0) return resumed_length_;
+  const double gain = attempt_ == Attempt::early_trial ? kEarlyLength : kTrialGain;
+  return gain * kKind[kind_].usual_implicit() * pace();
 }
 
 StepBounds MethodChoice::bounds(double longest) const {
   const auto paid =
       std::clamp(static_cast<long>(credit_ / kKind[kind_].evaluation), kMostTrialEvaluations, kMostEvaluations);
   const bool resumes = resumed_length_ > 0.0;
+  const long most = kind_ < kInLayer ? kMostTrialEvaluations : kMostInLayer;
+  const double shortest = kShortestTrial * pace();
   switch (attempt_) {
-    case Attempt::easy_trial: return {longest, kShortestTrial * pace(), kMostEasyTrialEvaluations, true};
-    case Attempt::trial:
-      return {longest, kShortestTrial * pace(), resumes ? paid : kMostTrialEvaluations, false, resumes};
+    case Attempt::easy_trial: return {longest, shortest, kMostEasyTrialEvaluations, true};
+    case Attempt::early_trial: return {longest, shortest, most};
+    case Attempt::trial: return {longest, shortest, resumes ? paid : most, false, resumes};
     case Attempt::passes_over: return {longest, kShortestPassing * pace(), kMostPassingEvaluations, false, true};
     case Attempt::ordinary: break;
   }
@@ -199,8 +223,9 @@ void MethodChoice::earn() {
   credit_ = std::min(credit_ + kTrialShare * series_cost(), kMostCredit);
 }
 
-void MethodChoice::settle_series(double gone, double longest) {
+void MethodChoice::settle_series(double gone, double longest, bool event) {
   if (gone > 0.0) may_pass_over_ = false;
+  steps_alike_ = event ? 0 : steps_alike_ + 1;
   if (gone == longest) return;  // cut short by a kink or the limit, it says nothing
   way_before_ = last_way_;
   last_way_ = gone / series_cost();
@@ -238,6 +263,7 @@ void MethodChoice::book_implicit(double gain) {
 void MethodChoice::ring() {
   may_pass_over_ = false;
   if (implicit_) leave_to_series(kTrialAfter);
+  steps_alike_ = 0;
   last_way_ = 0.0;
 }
 

@@ -60,8 +60,8 @@ class MethodChoice {
   /// The series are about to take a step in contact.
   void earn();
 
-  /// The series have gone `gone` of at most `longest` in a step.
-  void settle_series(double gone, double longest);
+  /// The series have gone `gone` of at most `longest` in a step, which an event may have ended.
+  void settle_series(double gone, double longest, bool event = false);
 
   /// An implicit step has gone `gone` of at most `longest`; 0: an event came at once. `follows_base`: it is so short
   /// that it follows a ring of the base.
@@ -86,10 +86,12 @@ class MethodChoice {
   static constexpr std::size_t kKinds = 9;  ///< of contacts, by what a step costs (method_choice.cpp)
 
   /// What the implicit step that is due is for.
-  enum class Attempt { ordinary, easy_trial, trial, passes_over };
+  enum class Attempt { ordinary, easy_trial, trial, early_trial, passes_over };
 
   double series_cost() const;
   double pace() const;
+  double way_ahead() const;
+  bool may_start_early(double length) const;
   void book_implicit(double gain);
   void leave_to_series(int steps);
 
@@ -107,6 +109,7 @@ class MethodChoice {
   double last_way_ = 0.0, way_before_ = 0.0;
   double credit_ = 0.0;     ///< what implicit steps may lose
   int series_steps_ = 0;    ///< in this contact since the last implicit step
+  int steps_alike_ = 0;     ///< of these, since an event or the kind of contacts changed
   int patience_;            ///< of these, before an implicit step is tried
   int implicit_steps_ = 0;  ///< since the series went last
   int next_question_;       ///< of these, before the series are asked how far they would go
