@@ -150,8 +150,14 @@ void MethodChoice::start_passing_over(double step) {
   attempt_ = Attempt::passes_over;
 }
 
-/// True when an implicit step that may become this long is worth trying before an ordinary trial is due.
-bool MethodChoice::may_start_early(double length) const {
+/// True when there is credit for an ordinary trial, and the series have gone for long enough.
+bool MethodChoice::trial_is_due() const {
+  const double needed = (kind_ < kInLayer ? kTrial : kTrialInLayer) * kKind[kind_].usual_implicit();
+  return pace() > 0.0 && credit_ >= needed && ((paid_ && series_steps_ >= wait_) || series_steps_ >= patience_);
+}
+
+/// True when an implicit step that may become so long is worth trying, whether or not an ordinary trial is due.
+bool MethodChoice::early_trial_pays(double length) const {
   const bool is_steady = steps_alike_ >= kEarlyAfter && last_way_ <= kSteady * way_before_;
   return kind_ < kInLayer && is_steady && series_steps_ >= wait_ && credit_ >= 0.0 &&
          length >= kEarlyGain * kKind[kind_].usual_implicit() * way_ahead();
@@ -159,21 +165,19 @@ bool MethodChoice::may_start_early(double length) const {
 
 bool MethodChoice::may_start(double longest) const {
   // where events coincide the series go nowhere, and say nothing
-  if (implicit_ || last_way_ == 0.0) return false;
-  if (may_start_early(longest)) return true;
-  if (pace() == 0.0) return false;
-  const double needed = (kind_ < kInLayer ? kTrial : kTrialInLayer) * kKind[kind_].usual_implicit();
-  return credit_ >= needed && ((paid_ && series_steps_ >= wait_) || series_steps_ >= patience_);
+  return !implicit_ && last_way_ > 0.0 && (trial_is_due() || early_trial_pays(longest));
 }
 
 bool MethodChoice::starts(double length_over_ring, double longest) {
   if (length_over_ring <= 0.0) return false;
   const double way = way_ahead();
-  const double usual = kKind[kind_].usual_implicit();
   const double length = std::min(length_over_ring, longest);
-  const bool resumes = paid_ && series_steps_ >= wait_ && length > kResumeGain * usual * way;
-  const bool is_early = !resumes && may_start_early(length);
-  if (!resumes && !is_early && (series_steps_ < patience_ || length <= kShortestTrial * pace())) return false;
+  const bool is_due = trial_is_due();
+  const bool resumes =
+      is_due && paid_ && series_steps_ >= wait_ && length > kResumeGain * kKind[kind_].usual_implicit() * way;
+  const bool is_ordinary = is_due && series_steps_ >= patience_ && length > kShortestTrial * pace();
+  const bool is_early = !resumes && early_trial_pays(length);
+  if (!resumes && !is_early && !is_ordinary) return false;
   attempt_ = is_early ? Attempt::early_trial : tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
   if (resumes || is_early) paces_[kind_] = {way, std::max(paces_[kind_].steps, kPaceKnown)};

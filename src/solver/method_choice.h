@@ -91,7 +91,8 @@ class MethodChoice {
   double series_cost() const;
   double pace() const;
   double way_ahead() const;
-  bool may_start_early(double length) const;
+  bool trial_is_due() const;
+  bool early_trial_pays(double length) const;
   void book_implicit(double gain);
   void leave_to_series(int steps);
 

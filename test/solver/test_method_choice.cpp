@@ -24,9 +24,8 @@ constexpr double kStep = 0.85, kEvaluation = 0.052;
 constexpr double kUsual = kStep + 36 * kEvaluation;
 constexpr double kUsualStuck = kStep + 36 * 0.058;  ///< of one that sticks
 
-/// What a series step adds to the credit for each 1 of its cost; the credit for a trial, and for the first one in the
-/// tanh layer.
-constexpr double kShare = 0.16, kTrial = 0.8, kFirstInLayer = 1.2;
+/// What a series step adds to the credit for each 1 of its cost; the credit for a trial, and for one in the tanh layer.
+constexpr double kShare = 0.16, kTrial = 0.8, kTrialInLayer = 1.2;
 
 /// Series steps in one contact before an implicit one is tried, and the length of a trial over one that would pay.
 constexpr int kTrialAfter = 10;
@@ -115,13 +114,70 @@ TEST(MethodChoice, the_first_trial_has_to_be_earned_however_short_the_way) {
   }
 }
 
-// A series step costs 1.2; 85 of that cost go 70.8.
-TEST(MethodChoice, the_first_trial_in_the_tanh_layer_has_to_be_earned_twice_where_the_way_is_short) {
+// A series step costs 1.2.
+TEST(MethodChoice, a_trial_in_the_tanh_layer_has_to_be_earned_for_longer) {
   const ContactStates layer = contacts_that({Slip::regularized});
-  MethodChoice near, far;
+  MethodChoice choice;
   const double usual = kStep + 36 * 0.092, earned = 1.2 * kShare;
-  expect_first_from(kFirstInLayer * usual / earned, steps_until_trial(near, layer, 70.0));
-  expect_first_from(kTrial * usual / earned, steps_until_trial(far, layer, 71.0));
+  const int first = steps_until_trial(choice, layer);
+  expect_first_from(kTrialInLayer * usual / earned, first);
+  choice.give_up_implicit(74);
+  const double debt = kStep + 74 * 0.092 - first * earned;
+  expect_first_from((kTrialInLayer * usual + debt) / earned, steps_until_trial(choice, layer));
+}
+
+/// So many series steps of this growth in such contacts, each of which an event may end.
+MethodChoice after_steps(int steps, double growth = 1.0, const ContactStates& contacts = kSliding, bool event = false) {
+  MethodChoice choice;
+  double way = 1.0;
+  for (int i = 0; i < steps; ++i, way *= growth) {
+    choice.look_at(contacts);
+    choice.earn();
+    choice.settle_series(way, kFar, event);
+  }
+  choice.look_at(contacts);
+  return choice;
+}
+
+/// Series that have settled would go 1.25 times as far. Six times what would pay then is worth an early trial.
+constexpr double kEarly = 6.0 * 1.25 * kUsual;
+
+TEST(MethodChoice, a_step_that_may_be_long_is_tried_after_four_steps) {
+  MethodChoice three = after_steps(3), four = after_steps(4), short_of_it = four, short_way = four;
+  EXPECT_FALSE(starts(three, kFar));
+  EXPECT_FALSE(starts(short_of_it, 0.99 * kEarly));
+  EXPECT_FALSE(starts(short_way, kFar, 0.99 * kEarly));
+  EXPECT_TRUE(starts(four, 1.01 * kEarly));
+  // at first less long than another trial, which knows more
+  EXPECT_DOUBLE_EQ(four.trial_length(), 2.5 * 1.25 * kUsual);
+  EXPECT_DOUBLE_EQ(four.bounds(kFar).shortest, 1.2 * 1.25);
+  EXPECT_EQ(four.bounds(kFar).evaluations, 80);
+  EXPECT_FALSE(four.bounds(kFar).easily);
+}
+
+TEST(MethodChoice, an_early_trial_asks_for_steps_that_have_settled) {
+  MethodChoice growing = after_steps(8, 1.03), settled = after_steps(8, 1.01), ended = after_steps(8, 1.0, kSliding, true);
+  EXPECT_FALSE(starts(growing, kFar));
+  EXPECT_TRUE(starts(settled, kFar));
+  EXPECT_FALSE(starts(ended, kFar));
+  MethodChoice other = after_steps(3);
+  other.look_at(contacts_that({Slip::stick}));
+  go_by_series(other);
+  EXPECT_FALSE(starts(other, kFar));
+  MethodChoice in_layer = after_steps(9, 1.0, contacts_that({Slip::regularized}));
+  EXPECT_FALSE(starts(in_layer, kFar));
+}
+
+TEST(MethodChoice, an_early_trial_that_is_given_up_has_to_be_paid_back) {
+  MethodChoice choice = after_steps(4);
+  ASSERT_TRUE(starts(choice, kFar));
+  choice.give_up_implicit(80);
+  int steps = 0;
+  for (; steps < 1000 && !starts(choice, kFar); ++steps) {
+    choice.look_at(kSliding);
+    go_by_series(choice);
+  }
+  expect_first_from((kStep + 80 * kEvaluation - 4 * kShare) / kShare, steps);
 }
 
 TEST(MethodChoice, a_trial_that_is_given_up_is_paid_and_ends_implicit_steps) {
@@ -184,7 +240,7 @@ TEST(MethodChoice, a_trial_is_given_up_sooner_than_other_implicit_steps) {
   ASSERT_LT(steps_until_trial(choice), 100);
   expect_trial(choice, 1.2, 80, false);
   ASSERT_LT(steps_until_trial(in_layer, contacts_that({Slip::regularized})), 200);
-  expect_trial(in_layer, 1.2 / 1.2, 80, false);
+  expect_trial(in_layer, 1.2 / 1.2, 40, false);
   choice.settle_implicit(kUsual + 50.0, kFar, kEffort);
   ASSERT_TRUE(choice.implicit());
   EXPECT_EQ(choice.bounds(kFar).longest, kFar);
@@ -335,7 +391,7 @@ TEST(MethodChoice, implicit_steps_that_have_not_paid_have_to_wait) {
   choice.settle_implicit(kUsual - 1.0, kFar, kEffort);
   choice.ring();
   int steps = 0;
-  for (; steps < 1000 && !starts(choice, kFar); ++steps) go_by_series(choice);
+  for (; steps < 1000 && !starts(choice, 0.9 * kEarly); ++steps) go_by_series(choice);
   EXPECT_EQ(steps, kTrialAfter);
 }
 
