@@ -156,7 +156,8 @@ TEST(MethodChoice, a_step_that_may_be_long_is_tried_after_four_steps) {
 }
 
 TEST(MethodChoice, an_early_trial_asks_for_steps_that_have_settled) {
-  MethodChoice growing = after_steps(8, 1.03), settled = after_steps(8, 1.01), ended = after_steps(8, 1.0, kSliding, true);
+  MethodChoice growing = after_steps(8, 1.03), settled = after_steps(8, 1.01);
+  MethodChoice ended = after_steps(8, 1.0, kSliding, true);
   EXPECT_FALSE(starts(growing, kFar));
   EXPECT_TRUE(starts(settled, kFar));
   EXPECT_FALSE(starts(ended, kFar));
