@@ -61,7 +61,7 @@ class MethodChoice {
   void earn();
 
   /// The series have gone `gone` of at most `longest` in a step, which an event may have ended.
-  void settle_series(double gone, double longest, bool event = false);
+  void settle_series(double gone, double longest, bool event);
 
   /// An implicit step has gone `gone` of at most `longest`; 0: an event came at once. `follows_base`: it is so short
   /// that it follows a ring of the base.
@@ -110,8 +110,8 @@ class MethodChoice {
   double last_way_ = 0.0, way_before_ = 0.0;
   double credit_ = 0.0;     ///< what implicit steps may lose
   int series_steps_ = 0;    ///< in this contact since the last implicit step
-  int steps_alike_ = 0;     ///< of these, since an event or the kind of contacts changed
   int patience_;            ///< of these, before an implicit step is tried
+  int steps_alike_ = 0;     ///< of these, since an event or the kind of contacts changed
   int implicit_steps_ = 0;  ///< since the series went last
   int next_question_;       ///< of these, before the series are asked how far they would go
 };

@@ -50,7 +50,7 @@ bool starts(MethodChoice& choice, double length_over_ring, double longest = kFar
 
 void go_by_series(MethodChoice& choice, double gone = 1.0) {
   choice.earn();
-  choice.settle_series(gone, kFar);
+  choice.settle_series(gone, kFar, false);
 }
 
 /// A series step of such contacts that goes 1; true when an implicit one was tried instead.
@@ -283,7 +283,7 @@ TEST(MethodChoice, series_steps_cut_short_by_the_limit_say_nothing_of_their_pace
   MethodChoice choice;
   for (int i = 0; i < 40; ++i) tries(choice);
   choice.earn();
-  choice.settle_series(0.1, 0.1);
+  choice.settle_series(0.1, 0.1, false);
   EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);
 }
 
@@ -491,7 +491,7 @@ TEST(MethodChoice, a_ring_is_passed_over_at_the_start_alone) {
   EXPECT_FALSE(kinked.may_pass_over());
   go_by_series(begun, 0.0);  // what sticks has been found to slip
   EXPECT_TRUE(begun.may_pass_over());
-  begun.settle_series(1.0, kFar);
+  begun.settle_series(1.0, kFar, false);
   EXPECT_FALSE(begun.may_pass_over());
 }
 
