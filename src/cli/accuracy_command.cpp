@@ -29,7 +29,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kAccuracyFooter[] = R"(Examples:
   align accuracy r1                                  every solver of this build on the scene r1
   align accuracy r1 --solvers event,implicit         only these
   align accuracy my_scene.yaml --csv a.csv --plot a.png
@@ -41,7 +41,7 @@ the scene's own unit of time. Time: CPU time of one trial, median of repetitions
 times of one run only.
 Exit status: 0 it ran; 1 it failed while running; 2 bad usage or bad scene.)";
 
-struct Options {
+struct AccuracyCommandOptions {
   std::string scene, csv, plot;
   std::vector<std::string> solvers, settings;
 };
@@ -144,8 +144,8 @@ void print_advice(const Scene& scene, const std::vector<AccuracyRun>& runs, cons
 }
 
 /// Reference and runs; what there is when a signal has come.
-std::optional<AccuracyReference> run_study(const Scene& scene, const Options& options, const InterruptGuard& interrupt,
-                                           std::vector<AccuracyRun>& runs) {
+std::optional<AccuracyReference> run_study(const Scene& scene, const AccuracyCommandOptions& options,
+                                           const InterruptGuard& interrupt, std::vector<AccuracyRun>& runs) {
   ProgressBar bar(stdout_is_terminal());
   double share = 0.0;
   std::string words = "reference";
@@ -170,7 +170,7 @@ std::optional<AccuracyReference> run_study(const Scene& scene, const Options& op
   return reference;
 }
 
-int run_accuracy(const Options& options) {
+int run_accuracy(const AccuracyCommandOptions& options) {
   const std::string file = find_scene(options.scene);
   YAML::Node tree = read_yaml_file(file);
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
@@ -209,8 +209,8 @@ int run_accuracy(const Options& options) {
 }  // namespace
 
 std::function<int()> set_up_accuracy(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.footer(kFooter);
+  const auto options = std::make_shared<AccuracyCommandOptions>();
+  app.footer(kAccuracyFooter);
   app.add_option("SCENE", options->scene,
                  "Scene file (YAML), or the name of a scene that comes with\nthe package, like r1")
       ->required();

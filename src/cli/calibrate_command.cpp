@@ -25,7 +25,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kCalibrateFooter[] = R"(Examples:
   align calibrate config/paper/calibration.yaml --report calibration.md
   align calibrate my_search.yaml --threads 8
   align calibrate my_search.yaml --log my_search.jsonl --resume     goes on where an earlier run ended
@@ -37,7 +37,7 @@ Exit status: 0 it ran; 1 it failed while running; 2 bad usage or bad file; inter
 
 constexpr double kSecondsBetweenLines = 30.0;
 
-struct Options {
+struct CalibrateCommandOptions {
   std::string file, report, log;
   bool resume = false;
   int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -70,7 +70,7 @@ auto with_refusals(const Action& action) {
   }
 }
 
-int run_calibrate(const Options& options) {
+int run_calibrate(const CalibrateCommandOptions& options) {
   const Calibration calibration = with_refusals([&] { return load_calibration(options.file); });
   std::unique_ptr<OutputPath> report;
   if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);
@@ -122,8 +122,8 @@ int run_calibrate(const Options& options) {
 }  // namespace
 
 std::function<int()> set_up_calibrate(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.footer(kFooter);
+  const auto options = std::make_shared<CalibrateCommandOptions>();
+  app.footer(kCalibrateFooter);
   app.add_option("CALIBRATION", options->file, "Calibration file (YAML)")->required();
   app.add_option("--threads", options->threads, "Searches that run at the same time. Default: the processors")
       ->check(CLI::Range(1, 1024))

@@ -19,7 +19,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kMergeFooter[] = R"(Examples:
   align sweep map --csv 1.csv --shard 1/2     here
   align sweep map --csv 2.csv --shard 2/2     and there
   align merge map.csv 1.csv 2.csv             the file that `align sweep map --csv map.csv` would have made
@@ -27,7 +27,7 @@ constexpr char kFooter[] = R"(Examples:
 All shards of one sweep are needed, in any order, each whole and once.
 Exit status: 0 the file is there; 1 it could not be written; 2 bad usage, or shards that do not belong together.)";
 
-struct Options {
+struct MergeCommandOptions {
   std::string out;
   std::vector<std::string> shards;
 };
@@ -110,7 +110,7 @@ ShardFiles open_shards(const std::vector<std::string>& paths) {
   return files;
 }
 
-int run_merge(const Options& options) {
+int run_merge(const MergeCommandOptions& options) {
   std::error_code error;
   for (const std::string& shard : options.shards)
     if (shard == options.out || std::filesystem::equivalent(shard, options.out, error))
@@ -137,8 +137,8 @@ int run_merge(const Options& options) {
 }  // namespace
 
 std::function<int()> set_up_merge(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.footer(kFooter);
+  const auto options = std::make_shared<MergeCommandOptions>();
+  app.footer(kMergeFooter);
   app.add_option("OUT", options->out, "The file to write")->required();
   app.add_option("SHARDS", options->shards, "Files that `align sweep --shard I/N --csv FILE` has written")->required();
   return [options] { return run_merge(*options); };

@@ -18,7 +18,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kPlotFooter[] = R"(Examples:
   align plot run.csv run.png                 of `align trial --csv run.csv`
   align plot trial.bag trial.svg             of `align trial --bag`, or recorded from aligner_node
   align plot trial.bag trial.png --si        in ms, mm, mm/s, mrad and N
@@ -29,7 +29,7 @@ the largest forces since the message before. Of a bag in which the trial was res
 It needs python3-matplotlib, and for bags python3-rosbag.
 Exit status: 0 it is drawn; 1 it failed while drawing; 2 bad usage, or a file that cannot be drawn.)";
 
-struct Options {
+struct PlotCommandOptions {
   std::string trial, picture, node, title;
   bool si = false;
 };
@@ -43,7 +43,7 @@ void check_readable(const std::string& path) {
   if (ending != ".csv" && ending != ".bag") throw UsageError("TRIAL: " + path + ": the name must end in .csv or .bag");
 }
 
-int run_plot(const Options& options) {
+int run_plot(const PlotCommandOptions& options) {
   const std::string format = picture_format("PICTURE", options.picture);
   check_readable(options.trial);
   if (!options.node.empty() && std::filesystem::path(options.trial).extension() != ".bag")
@@ -66,8 +66,8 @@ int run_plot(const Options& options) {
 }  // namespace
 
 std::function<int()> set_up_plot(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.footer(kFooter);
+  const auto options = std::make_shared<PlotCommandOptions>();
+  app.footer(kPlotFooter);
   app.add_option("TRIAL", options->trial, "A CSV file (.csv) or a bag (.bag) of a trial")->required();
   app.add_option("PICTURE", options->picture, "The picture to write: .png, .svg or .pdf")->required();
   app.add_option("--node", options->node, "Which aligner of a bag that has several")->type_name("NAME");

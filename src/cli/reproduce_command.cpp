@@ -33,7 +33,7 @@ constexpr int kResamples = 200;
 /// For --quick: a look that takes a tenth of the time.
 constexpr Thinning kQuick = {4, 3};
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kReproduceFooter[] = R"(Examples:
   align reproduce                        all figures and facts, into the folder reproduction
   align reproduce fig7                   Fig. 7 alone, and the facts that it shows
   align reproduce --check                exit status 1 if a fact that was met is no longer
@@ -47,7 +47,7 @@ Files in the folder: ledger.md, ledger.json; of each figure its data (CSV) and p
 Exit status: 0 it ran; 1 it failed while running, or --check found a fact missed that is expected to be met;
 2 bad usage, facts file, study or scene.)";
 
-struct Options {
+struct ReproduceCommandOptions {
   std::vector<std::string> figures;
   std::string facts = "facts", output = "reproduction";
   std::vector<std::string> settings;
@@ -80,7 +80,7 @@ void keep_figures(FactBook& book, const std::vector<std::string>& asked) {
   book.facts.erase(std::remove_if(book.facts.begin(), book.facts.end(), is_not_shown), book.facts.end());
 }
 
-FactSuite load(const Options& options) {
+FactSuite load(const ReproduceCommandOptions& options) {
   try {
     FactSuite suite = load_fact_suite(find_facts(options.facts), find_scene);
     keep_figures(suite.book, options.figures);
@@ -120,7 +120,7 @@ Tables run(const FactSuite& suite, FactRunOptions& run_options, const InterruptG
   return run_fact_studies(suite, run_options);
 }
 
-int run_command(const Options& options) {
+int run_command(const ReproduceCommandOptions& options) {
   const FactSuite suite = load(options);
   FactRunOptions run_options;
   run_options.settings.all = options.settings;
@@ -160,8 +160,8 @@ int run_command(const Options& options) {
 }  // namespace
 
 std::function<int()> set_up_reproduce(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.footer(kFooter);
+  const auto options = std::make_shared<ReproduceCommandOptions>();
+  app.footer(kReproduceFooter);
   app.add_option("FIGURE", options->figures, "Figures to make: fig2 ... fig8. Default: all, and all facts");
   app.add_flag("--check", options->check, "Fail if a fact that is expected to be met is missed");
   app.add_flag("--quick", options->quick, "A quick look: fewer points, fewer samples");

@@ -30,7 +30,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kSweepFooter[] = R"(Examples:
   align sweep force_and_offset                     a study that comes with the package: summary only
   align sweep my_study.yaml --csv out.csv          one row a trial, in out.csv
   align sweep my_study.yaml --csv out.csv --resume goes on after Ctrl-C, a crash, a power cut
@@ -43,7 +43,7 @@ Rows come in the order of the trials; threads, shards and interruptions change n
 The file is FILE.part until it is whole; what is in it when the sweep ends early is kept for --resume.
 Exit status: 0 it ran, whatever the outcomes; 1 it failed while running; 2 bad usage, study or scene.)";
 
-struct Options {
+struct SweepCommandOptions {
   std::string study, csv, shard;
   std::vector<std::string> settings;
   int threads = 0;
@@ -55,7 +55,7 @@ std::string check_shard(const std::string& text) {
   return text + " is not allowed: give I/N, as in 3/8 for the third of eight shards";
 }
 
-Study load(const Options& options) {
+Study load(const SweepCommandOptions& options) {
   const std::string file = find_study(options.study);
   std::error_code error;
   if (options.csv == file || std::filesystem::equivalent(options.csv, file, error))
@@ -115,7 +115,8 @@ std::string progress_text(const SweepSummary& summary, const Run& run, std::size
 }
 
 /// Runs what is left of the sweep.
-Run run(const Study& study, const Options& options, const Shard& shard, SweepCsv* csv, SweepSummary& summary) {
+Run run(const Study& study, const SweepCommandOptions& options, const Shard& shard, SweepCsv* csv,
+        SweepSummary& summary) {
   const InterruptGuard interrupt;
   ProgressBar bar(stdout_is_terminal() && !is_stdout(options.csv));
   const std::size_t count = shard_size(shard, trial_count(study));
@@ -152,7 +153,7 @@ std::string report(const Study& study, const SweepHead& head, const SweepSummary
   return text + line;
 }
 
-int run_command(const Options& options) {
+int run_command(const SweepCommandOptions& options) {
   if (options.resume && options.csv.empty()) throw UsageError("--resume: continues a file; name it with --csv");
   const Study study = load(options);
   const std::vector<std::string> names = varied_names(study);
@@ -183,8 +184,8 @@ int run_command(const Options& options) {
 }  // namespace
 
 std::function<int()> set_up_sweep(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  app.footer(kFooter);
+  const auto options = std::make_shared<SweepCommandOptions>();
+  app.footer(kSweepFooter);
   app.add_option("STUDY", options->study, "Study file (YAML), or the name of a study that comes with\nthe package")
       ->required();
   app.add_option("--threads", options->threads, "Trials that run at a time. Default: one for each processor")

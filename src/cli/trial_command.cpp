@@ -34,7 +34,7 @@ namespace {
 
 constexpr double kSamplesPerPeriod = 20.0;  ///< of the fastest excitation, without --sample
 
-constexpr char kFooter[] = R"(Examples:
+constexpr char kTrialFooter[] = R"(Examples:
   align trial fig2                               the paper's alignment trial, which comes with the package
   align trial my_scene.yaml --json               a scene of your own, the result for a program
   align trial fig2 --csv run.csv --sample 0.01   motion and forces, every 0.01 and at every event
@@ -59,7 +59,7 @@ CSV columns:
 Files appear under their names when they are whole; a run that fails or is interrupted leaves none.
 Exit status: 0 the trial ran, whatever its outcome; 1 it failed while running; 2 bad usage or bad scene.)";
 
-struct TrialOptions {
+struct TrialCommandOptions {
   std::string scene;
   std::string solver, accuracy, tolerance, step;
   std::optional<double> until, sample;
@@ -113,7 +113,7 @@ const SolverName* solver_of(const YAML::Node& tree) {
 }
 
 /// The scene with everything that the options change in it.
-Scene load(const TrialOptions& options, const std::string& file) {
+Scene load(const TrialCommandOptions& options, const std::string& file) {
   YAML::Node tree = read_yaml_file(file);
   if (!options.solver.empty()) {
     apply_setting(tree, "solver.name=" + options.solver);
@@ -151,7 +151,7 @@ Scene load(const TrialOptions& options, const std::string& file) {
 }
 
 /// Throws UsageError for a name that would overwrite the scene or another output.
-void check_outputs(const TrialOptions& options, const std::string& scene_file) {
+void check_outputs(const TrialCommandOptions& options, const std::string& scene_file) {
   const auto same = [](const std::string& a, const std::string& b) {
     std::error_code error;
     return a == b || std::filesystem::equivalent(a, b, error);
@@ -166,7 +166,7 @@ void check_outputs(const TrialOptions& options, const std::string& scene_file) {
 }
 
 /// Dimensionless: --sample, or a twentieth of the period of the fastest excitation.
-double sample_interval(const TrialOptions& options, const Scene& scene, double end) {
+double sample_interval(const TrialCommandOptions& options, const Scene& scene, double end) {
   const double interval = options.sample ? *options.sample / output_units(scene).time
                                          : 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod;
   if (end / interval > kMostSamples) {
@@ -187,7 +187,7 @@ Simulation make_simulation(const Scene& scene, const SimulationOptions& options)
 class Recorder {
  public:
   /// Throws UsageError when one of them cannot be written.
-  Recorder(const TrialOptions& options, const Scene& scene) {
+  Recorder(const TrialCommandOptions& options, const Scene& scene) {
     if (!options.csv.empty()) csv_ = std::make_unique<CsvWriter>(options.csv, output_units(scene));
     if (!options.bag.empty()) {
       bag_path_ = std::make_unique<OutputPath>("--bag", options.bag);
@@ -243,7 +243,7 @@ int simulate(Simulation& simulation, Recorder& recorder, double interval, double
   return interrupt.signal();
 }
 
-int run_trial(const TrialOptions& options) {
+int run_trial(const TrialCommandOptions& options) {
   const std::string file = find_scene(options.scene);
   check_outputs(options, file);
   const Scene scene = load(options, file);
@@ -284,9 +284,9 @@ int run_trial(const TrialOptions& options) {
 }  // namespace
 
 std::function<int()> set_up_trial(CLI::App& app) {
-  const auto options = std::make_shared<TrialOptions>();
+  const auto options = std::make_shared<TrialCommandOptions>();
   const CLI::Validator positive = number_by(positive_number);
-  app.footer(kFooter);
+  app.footer(kTrialFooter);
   app.add_option("SCENE", options->scene,
                  "Scene file (YAML), or the name of a scene that comes with\nthe package, like fig2")
       ->required();

@@ -14,4 +14,10 @@ std::string number_text(double value) {
   return text;
 }
 
+double rounded(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return std::strtod(text, nullptr);
+}
+
 }  // namespace vibratory_alignment

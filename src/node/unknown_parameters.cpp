@@ -84,8 +84,9 @@ std::vector<std::string> unread_settings(const std::string& node, XmlRpc::XmlRpc
     const std::optional<double> number = number_of(given[setting->name]);
     if (number && std::abs(*number - start) <= kSameNumber * std::abs(start)) continue;
     std::ostringstream line;
-    line << node << '/' << setting->name << " = " << given[setting->name]
-         << " is not read at the start, the scene gives " << start
+    line << node << '/' << setting->name << " = ";
+    given[setting->name].write(line);
+    line << " is not read at the start, the scene gives " << start
          << "; change the scene, or the setting once the node runs";
     lines.push_back(line.str());
   }

@@ -118,8 +118,6 @@ bool all_recover_evenly(const System& system, const Recoveries& recoveries) {
   });
 }
 
-bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
-
 }  // namespace
 
 EventSolver::EventSolver(const System& system, const std::vector<Excitation>& excitations, double tolerance,

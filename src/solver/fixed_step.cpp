@@ -9,8 +9,6 @@ namespace {
 /// A rest of a step this small, relative to the step, is joined to a neighbour.
 constexpr double kSliver = 1e-6;
 
-bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
-
 }  // namespace
 
 FixedStepSolver::FixedStepSolver(const System& system, const std::vector<Excitation>& excitations,

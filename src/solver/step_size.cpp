@@ -18,7 +18,7 @@ constexpr double kHeld = 1e-20;
 /// Beyond it rounding is all that is left.
 constexpr int kMostOrder = 22;
 /// Of numbers about one.
-constexpr double kRounding = 1e-16;
+constexpr double kUnitRounding = 1e-16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Base-2 logarithm of a normal positive number, good to 0.1: exponent and leading digits, read off its bits.
@@ -125,7 +125,7 @@ int series_order(double tolerance) {
 
 int straight_series_order(double tolerance, double radians) {
   // terms grow to exp(radians) of what they sum to, and leave rounding of that
-  const double log_radians = std::log(std::min(radians, std::log(tolerance / kRounding)));
+  const double log_radians = std::log(std::min(radians, std::log(tolerance / kUnitRounding)));
   int order = series_order(tolerance);
   // the last term of a ring is radians^order/order!
   while (order < kMaxOrder - 2 && order * log_radians - std::lgamma(order + 1.0) > std::log(tolerance)) ++order;

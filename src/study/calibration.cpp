@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <stdexcept>
 #include <thread>
@@ -19,6 +17,7 @@
 namespace vibratory_alignment {
 namespace {
 
+/// Of what is found: nothing else is what somebody would write down.
 constexpr int kDigits = 4;
 
 void append(const CalibrationSettings& settings, const Table& parameters, FactSettings& all) {
@@ -46,13 +45,6 @@ void check_names(const Calibration& calibration, const FactSuite& suite) {
   check("settings", calibration.settings);
   for (const CalibrationReading& reading : calibration.readings) check("readings.settings", reading.settings);
   if (!faults.empty()) throw SceneError(calibration.source, faults);
-}
-
-/// To kDigits significant digits, by its text: nothing else is what somebody would write down.
-double rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", kDigits, value);
-  return std::strtod(text, nullptr);
 }
 
 /// Calls work(0) ... work(count - 1), of which so many at a time. Throws what one of them has thrown, the first by
@@ -93,7 +85,7 @@ bool CalibrationPlace::operator<(const CalibrationPlace& other) const {
 
 double CalibrationParameter::value_at(double share) const {
   const double value = logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
-  return std::min(to, std::max(from, rounded(value)));
+  return std::min(to, std::max(from, rounded(value, kDigits)));
 }
 
 double CalibrationParameter::share_of(double value) const {

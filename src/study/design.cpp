@@ -2,8 +2,6 @@
 
 #include <boost/random/sobol.hpp>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "model/number_text.h"
@@ -19,19 +17,13 @@ double in_range(const VariedKey& key, double part) {
   return key.from + part * (key.to - key.from);
 }
 
-/// The nearest number of 15 digits: what steps through a range come to, 0.15, and not 0.15000000000000002.
-double rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return std::strtod(text, nullptr);
-}
-
 /// Value `i` of `count`.
 VariedValue listed_value(const VariedKey& key, std::size_t i, std::size_t count) {
   if (!key.values.empty())
     return {key.values[i], parse_number(key.values[i]).value_or(std::numeric_limits<double>::quiet_NaN())};
   double number = i == 0 ? key.from : key.to;
-  if (i > 0 && i + 1 < count) number = rounded(in_range(key, static_cast<double>(i) / static_cast<double>(count - 1)));
+  if (i > 0 && i + 1 < count)
+    number = rounded(in_range(key, static_cast<double>(i) / static_cast<double>(count - 1)), 15);
   return {number_text(number), number};
 }
 

@@ -11,7 +11,6 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLowQuantile = 0.05, kHighQuantile = 0.95;
 
 /// The column that numbers the samples at each point; studies without samples have none.

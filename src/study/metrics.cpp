@@ -8,8 +8,6 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 const CurvePoint* least_point(const CurvePoints& points) {
   const CurvePoint* best = nullptr;
   for (const CurvePoint& point : points)

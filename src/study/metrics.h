@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace vibratory_alignment {
+
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Of those that are not NaN; of an even number of them the mean of the middle two.
 double median(std::vector<double> values);

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "../support/hard_scene.h"
+#include "../support/numbers.h"
 #include "../support/runs.h"
 
 namespace vibratory_alignment {
 namespace {
 
+using test::kPi;
 using test::TimedEvent;
 
-constexpr double kPi = 3.14159265358979323846, kMiddle = 0.3, kStiffness = 0.7;
+constexpr double kMiddle = 0.3, kStiffness = 0.7;
 constexpr double kLimit = 0.013 * 0.5 / (1.0 + 1e-4);  // f N, N less the sag of the base
 
 TEST(CoulombOscillator, loses_four_f_n_over_k_a_cycle) {

@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "../support/hard_scene.h"
+#include "../support/numbers.h"
 #include "../support/runs.h"
 
 namespace vibratory_alignment {
 namespace {
 
+using test::kPi;
 using test::TimedEvent;
 
-constexpr double kPi = 3.14159265358979323846, kFrequency = 3.0;
+constexpr double kBlockFrequency = 3.0;
 /// f N, with N = f0 less what the axial spring loses to the sag d: N = f0 - N/k.
 constexpr double kLimit = 0.4 * 0.5 / (1.0 + 1e-4);
 
@@ -57,7 +59,8 @@ TEST(ShakenBlock, slips_when_the_force_reaches_f_n) {
     const std::vector<TimedEvent> events = test::events_of(shaken_block(share * kLimit));
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events[0].event.kind, EventKind::slip);
-    EXPECT_NEAR(events[0].time, std::asin(1.0 / share) / kFrequency, 3e-12 / std::sqrt(1.0 - 1.0 / (share * share)))
+    EXPECT_NEAR(events[0].time, std::asin(1.0 / share) / kBlockFrequency,
+                3e-12 / std::sqrt(1.0 - 1.0 / (share * share)))
         << share;
   }
 }
@@ -70,13 +73,13 @@ double way_of_one_slip(double amplitude) {
   for (int i = 0; i < 100; ++i) (speed(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
   const double ds = low - s0;
   return (amplitude * (std::cos(s0) * ds - std::sin(low) + std::sin(s0)) - 0.5 * kLimit * ds * ds) /
-         (kFrequency * kFrequency);
+         (kBlockFrequency * kBlockFrequency);
 }
 
 TEST(ShakenBlock, slips_as_far_as_the_force_beyond_f_n_drives_it) {
   for (const double share : {1.01, 1.1, 1.2}) {
     // until it is about to slip back, half a period later
-    const double until = (std::asin(1.0 / share) + kPi) / kFrequency - 1e-3;
+    const double until = (std::asin(1.0 / share) + kPi) / kBlockFrequency - 1e-3;
     const TrialResult result = test::run(shaken_block(share * kLimit), {}, until);
     EXPECT_NEAR(result.final_state.x - 0.3, way_of_one_slip(share * kLimit), 1e-11) << share;
   }
@@ -85,7 +88,7 @@ TEST(ShakenBlock, slips_as_far_as_the_force_beyond_f_n_drives_it) {
 // Two slips and two sticks a period, no chattering about V = 0.
 TEST(ShakenBlock, slipping_and_sticking_alternate) {
   int slips = 0, sticks = 0;
-  for (const TimedEvent& e : test::events_of(shaken_block(1.2 * kLimit), 10.0 * 2.0 * kPi / kFrequency)) {
+  for (const TimedEvent& e : test::events_of(shaken_block(1.2 * kLimit), 10.0 * 2.0 * kPi / kBlockFrequency)) {
     slips += e.event.kind == EventKind::slip;
     sticks += e.event.kind == EventKind::stick;
   }

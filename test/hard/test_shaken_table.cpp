@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "../support/hard_scene.h"
+#include "../support/numbers.h"
 #include "../support/restitution.h"
 #include "../support/runs.h"
 
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kFrequency = 1000.0, kPeriod = 2.0 * kPi / kFrequency;
+using test::kPi;
+
+constexpr double kFrequency = 1000.0, kPeriod = 2.0 * kPi / kFrequency;
 
 double restitution() { return test::linear_restitution(0.3); }
 double least_gamma() { return kPi * (1.0 - restitution()) / (1.0 + restitution()); }

@@ -9,10 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "../support/random_state.h"
 #include "../support/scenes.h"
 
 namespace vibratory_alignment {
 namespace {
+
+using test::random_state;
 
 System test_system() {
   System system = make_system(test::scene_of(test::plain));
@@ -29,11 +32,6 @@ const std::vector<std::pair<Site, Face>>& contacts() {
       {Site::b2, Face::top},         {Site::b2, Face::right_wall}, {Site::b2, Face::left_wall},
       {Site::b1_floor, Face::floor}, {Site::b2_floor, Face::floor}};
   return all;
-}
-
-State random_state(std::mt19937& random) {
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  return {0.5 * u(random), 0.9 + 0.5 * u(random), 2.0 * u(random), u(random), u(random), 2.0 * u(random)};
 }
 
 /// The state after time t with constant velocities.

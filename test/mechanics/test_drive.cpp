@@ -7,16 +7,16 @@
 #include <limits>
 #include <random>
 
+#include "../support/numbers.h"
 #include "../support/quad.h"
 
 namespace vibratory_alignment {
 namespace {
 
-using test::Quad;
+using test::Float128;
+using test::kPi;
 using test::two_pi;
 using test::wrapped;
-
-constexpr double kPi = 3.14159265358979323846;
 
 Excitation excitation_of(Waveform waveform, double amplitude, double frequency, double phase) {
   Excitation e;
@@ -27,11 +27,11 @@ Excitation excitation_of(Waveform waveform, double amplitude, double frequency, 
   return e;
 }
 
-Quad time_of(const Instant& t) { return Quad(t.high) + Quad(t.low); }
+Float128 time_of(const Instant& t) { return Float128(t.high) + Float128(t.low); }
 
 /// Distance of two angles around the circle.
-double angle_between(double a, Quad b) {
-  Quad difference = wrapped(Quad(a) - b);
+double angle_between(double a, Float128 b) {
+  Float128 difference = wrapped(Float128(a) - b);
   if (difference > two_pi() / 2) difference -= two_pi();
   return std::abs(static_cast<double>(difference));
 }
@@ -67,13 +67,13 @@ TEST(Instant, goes_to_a_time_to_the_last_bit) {
 
 TEST(Instant, adds_up_without_loss) {
   Instant t;
-  Quad exact = 0;
+  Float128 exact = 0;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> step(0.0, 0.3);
   for (int i = 0; i < 300000; ++i) {
     const double dt = step(random);
     t = t + dt;
-    exact += Quad(dt);
+    exact += Float128(dt);
   }
   EXPECT_LT(std::abs(static_cast<double>(time_of(t) - exact)), 1e-22);
   EXPECT_LE(std::abs(t.low), 0.5 * (std::nextafter(t.high, 1e300) - t.high));
@@ -91,7 +91,7 @@ TEST(Drive, sine_has_the_phase_of_the_definition) {
     const Drive drive(excitation_of(Waveform::sine, 1.3, 20.0, phase), {});
     for (const double t : {0.0, 1e-7, 0.4, 3.1}) {
       const Instant now{t, 0.0};
-      EXPECT_LT(angle_between(drive.phase_at(now), Quad(20.0) * Quad(t) + Quad(phase)), 4e-15);
+      EXPECT_LT(angle_between(drive.phase_at(now), Float128(20.0) * Float128(t) + Float128(phase)), 4e-15);
       EXPECT_NEAR(value_of(drive.form_at(now), 0.02), 1.3 * std::sin(20.0 * (t + 0.02) + phase), 1e-13);
       EXPECT_EQ(drive.time_to_kink(now), std::numeric_limits<double>::infinity());
     }
@@ -104,7 +104,8 @@ TEST(Drive, phase_does_not_drift_in_a_million_periods) {
     for (const double periods : {1e3, 123456.78, 1e6}) {
       const Drive drive(excitation_of(Waveform::sine, 1.0, frequency, 0.4), {});
       const Instant now = Instant{periods * 2.0 * kPi / frequency, 0.0} + 1.2345e-12;
-      EXPECT_LT(angle_between(drive.phase_at(now), Quad(frequency) * time_of(now) + Quad(0.4)), 4e-15) << frequency;
+      EXPECT_LT(angle_between(drive.phase_at(now), Float128(frequency) * time_of(now) + Float128(0.4)), 4e-15)
+          << frequency;
     }
 }
 
@@ -112,7 +113,8 @@ TEST(Drive, phase_counts_from_the_start_of_the_drive) {
   const Instant start = Instant{7777.7, 0.0} + 1e-15;
   const Drive drive(excitation_of(Waveform::sine, 1.0, 20.0, 0.4), start);
   const Instant now = start + 1.7;
-  EXPECT_LT(angle_between(drive.phase_at(now), Quad(20.0) * (time_of(now) - time_of(start)) + Quad(0.4)), 4e-15);
+  EXPECT_LT(angle_between(drive.phase_at(now), Float128(20.0) * (time_of(now) - time_of(start)) + Float128(0.4)),
+            4e-15);
 }
 
 /// Walks through `periods` periods and compares value and slope with the definition at places between the kinks.
@@ -123,7 +125,7 @@ void expect_waveform(const Excitation& e, double (*definition)(double theta), do
   std::uniform_real_distribution<double> step(0.0, 2.0);
   while (now.value() * e.frequency < periods * 2.0 * kPi) {
     now = go_to(drive, now, now.value() + step(random) / e.frequency);
-    const double theta = static_cast<double>(wrapped(Quad(e.frequency) * time_of(now) + Quad(e.phase)));
+    const double theta = static_cast<double>(wrapped(Float128(e.frequency) * time_of(now) + Float128(e.phase)));
     const DriveForm form = drive.form_at(now);
     ASSERT_NEAR(value_of(form, 0.0), e.amplitude * definition(theta), 1e-13) << "theta = " << theta;
     // it goes on as it is until the next kink
@@ -161,8 +163,9 @@ TEST(Drive, kinks_lie_where_the_definition_has_them) {
       now = now + drive.time_to_kink(now);
       drive.pass_kink();
       if (n % 997 != 1) continue;
-      const Quad angle = (Quad(n) - (waveform == Waveform::triangle ? Quad(0.5) : Quad(0))) * two_pi() / 2;
-      const double error = static_cast<double>(time_of(now) - (angle - Quad(phase)) / Quad(frequency));
+      const Float128 angle =
+          (Float128(n) - (waveform == Waveform::triangle ? Float128(0.5) : Float128(0))) * two_pi() / 2;
+      const double error = static_cast<double>(time_of(now) - (angle - Float128(phase)) / Float128(frequency));
       ASSERT_LT(std::abs(error), 2e-15 / frequency * 2.0) << "kink " << n;
     }
   }
@@ -195,10 +198,10 @@ Excitation chirp_of(double frequency, double end_frequency, double sweep_time, d
   return e;
 }
 
-Quad chirp_phase(const Excitation& e, Quad t) {
-  const Quad nu = e.frequency, end = e.end_frequency, sweep = e.sweep_time;
-  if (t < sweep) return Quad(e.phase) + nu * t + (end - nu) / sweep * t * t / 2;
-  return Quad(e.phase) + (nu + end) / 2 * sweep + end * (t - sweep);
+Float128 chirp_phase(const Excitation& e, Float128 t) {
+  const Float128 nu = e.frequency, end = e.end_frequency, sweep = e.sweep_time;
+  if (t < sweep) return Float128(e.phase) + nu * t + (end - nu) / sweep * t * t / 2;
+  return Float128(e.phase) + (nu + end) / 2 * sweep + end * (t - sweep);
 }
 
 TEST(Drive, chirp_is_the_integral_of_its_frequency) {
@@ -208,14 +211,14 @@ TEST(Drive, chirp_is_the_integral_of_its_frequency) {
       const double t = share * e.sweep_time;
       Drive drive(e, {});
       const Instant now = go_to(drive, {}, t);
-      const double swept = std::abs(static_cast<double>(chirp_phase(e, Quad(std::min(t, e.sweep_time)))));
+      const double swept = std::abs(static_cast<double>(chirp_phase(e, Float128(std::min(t, e.sweep_time)))));
       EXPECT_LT(angle_between(drive.phase_at(now), chirp_phase(e, time_of(now))), 4e-15 + 3e-16 * swept) << "t = " << t;
       const double frequency =
           t < e.sweep_time ? e.frequency + (e.end_frequency - e.frequency) * t / e.sweep_time : e.end_frequency;
       EXPECT_NEAR(drive.form_at(now).frequency, frequency, 1e-13);
       const double on = std::min(0.01, 0.5 * drive.time_to_kink(now));
       EXPECT_NEAR(value_of(drive.form_at(now), on),
-                  std::sin(static_cast<double>(wrapped(chirp_phase(e, time_of(now) + Quad(on))))), 1e-12);
+                  std::sin(static_cast<double>(wrapped(chirp_phase(e, time_of(now) + Float128(on))))), 1e-12);
     }
   }
 }
@@ -227,7 +230,7 @@ TEST(Drive, chirp_goes_on_from_its_end_without_a_jump) {
   EXPECT_EQ(end.value(), 16.0);
   const double before = drive.phase_at(end);
   drive.pass_kink();
-  EXPECT_LT(angle_between(drive.phase_at(end), Quad(before)), 1e-13);
+  EXPECT_LT(angle_between(drive.phase_at(end), Float128(before)), 1e-13);
   EXPECT_EQ(drive.time_to_kink(end), std::numeric_limits<double>::infinity());
 }
 
@@ -237,10 +240,11 @@ TEST(Drive, change_keeps_the_phase) {
     const Instant now = go_to(drive, {}, 3.33);
     const double before = drive.phase_at(now);
     drive.change(excitation_of(waveform, 0.5, 31.0, 0.4), now);
-    EXPECT_LT(angle_between(drive.phase_at(now), Quad(before)), 2e-15);
+    EXPECT_LT(angle_between(drive.phase_at(now), Float128(before)), 2e-15);
     // from here on with the new frequency
     const Instant later = now + 0.01;
-    EXPECT_LT(angle_between(drive.phase_at(later), Quad(before) + Quad(31.0) * (time_of(later) - time_of(now))), 2e-15);
+    EXPECT_LT(angle_between(drive.phase_at(later), Float128(before) + Float128(31.0) * (time_of(later) - time_of(now))),
+              2e-15);
   }
 }
 
@@ -249,7 +253,7 @@ TEST(Drive, a_new_phase_setting_shifts_by_the_difference) {
   const Instant now{3.33, 0.0};
   const double before = drive.phase_at(now);
   drive.change(excitation_of(Waveform::sine, 1.0, 20.0, 1.6), now);
-  EXPECT_LT(angle_between(drive.phase_at(now), Quad(before) + Quad(1.2)), 2e-15);
+  EXPECT_LT(angle_between(drive.phase_at(now), Float128(before) + Float128(1.2)), 2e-15);
 }
 
 TEST(Drive, change_of_waveform_keeps_the_phase_and_finds_the_right_branch) {
@@ -286,14 +290,14 @@ TEST(Drive, runs_on_while_it_is_off) {
 TEST(Drive, a_thousand_changes_do_not_lose_the_phase) {
   Drive drive(excitation_of(Waveform::sine, 1.0, 20.0, 0.0), {});
   Instant now;
-  Quad angle = 0;
+  Float128 angle = 0;
   double frequency = 20.0;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> next(1.0, 100.0);
   for (int i = 0; i < 1000; ++i) {
     const Instant before = now;
     now = now + 0.7;
-    angle += Quad(frequency) * (time_of(now) - time_of(before));
+    angle += Float128(frequency) * (time_of(now) - time_of(before));
     frequency = next(random);
     drive.change(excitation_of(Waveform::sine, 1.0, frequency, 0.0), now);
   }

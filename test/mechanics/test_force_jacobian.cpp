@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "../support/random_state.h"
 #include "../support/touching.h"
 #include "mechanics/octet_forces.h"
 
@@ -16,12 +17,8 @@ namespace vibratory_alignment {
 namespace {
 
 using test::anisotropic_system;
+using test::random_state;
 using test::states_of;
-
-State random_state(std::mt19937& random) {
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  return {0.5 * u(random), 0.9 + 0.5 * u(random), 2.0 * u(random), u(random), u(random), 2.0 * u(random)};
-}
 
 Forces forces_at(const System& system, const State& state, const ContactStates& contacts) {
   Forces forces;

@@ -16,8 +16,8 @@
 namespace vibratory_alignment {
 namespace {
 
-using test::Quad;
-using test::QuadMatrix;
+using test::Float128;
+using test::Float128Matrix;
 using test::ramp;
 using test::sine;
 
@@ -30,13 +30,13 @@ Motion exponential_solution(const Axis& axis, double q, double v, double force, 
                             double t) {
   // z = (q, v, 1, t, s_1, c_1, s_2, c_2, ...), s = A sin(nu t + phase), c = A cos(nu t + phase)
   const std::size_t n = 4 + 2 * forms.size();
-  QuadMatrix a(n, std::vector<Quad>(n, 0));
-  std::vector<Quad> z(n, 0);
-  const Quad m = axis.inertia;
+  Float128Matrix a(n, std::vector<Float128>(n, 0));
+  std::vector<Float128> z(n, 0);
+  const Float128 m = axis.inertia;
   a[0][1] = 1;
-  a[1][0] = -Quad(axis.stiffness) / m;
-  a[1][1] = -Quad(axis.damping) / m;
-  a[1][2] = (Quad(axis.stiffness) * Quad(axis.anchor) + Quad(force)) / m;
+  a[1][0] = -Float128(axis.stiffness) / m;
+  a[1][1] = -Float128(axis.damping) / m;
+  a[1][2] = (Float128(axis.stiffness) * Float128(axis.anchor) + Float128(force)) / m;
   a[3][2] = 1;
   z[0] = q;
   z[1] = v;
@@ -44,22 +44,22 @@ Motion exponential_solution(const Axis& axis, double q, double v, double force, 
   for (std::size_t i = 0; i < forms.size(); ++i) {
     const DriveForm& form = forms[i];
     const std::size_t s = 4 + 2 * i, c = s + 1;
-    a[1][2] += Quad(form.constant) / m;
-    a[1][3] += Quad(form.slope) / m;
+    a[1][2] += Float128(form.constant) / m;
+    a[1][3] += Float128(form.slope) / m;
     a[1][s] = 1 / m;
     a[s][c] = form.frequency;
-    a[c][s] = -Quad(form.frequency);
-    z[s] = Quad(form.amplitude) * Quad(form.sin_phase);
-    z[c] = Quad(form.amplitude) * Quad(form.cos_phase);
+    a[c][s] = -Float128(form.frequency);
+    z[s] = Float128(form.amplitude) * Float128(form.sin_phase);
+    z[c] = Float128(form.amplitude) * Float128(form.cos_phase);
   }
-  QuadMatrix scaled = a;
+  Float128Matrix scaled = a;
   for (auto& row : scaled)
-    for (Quad& entry : row) entry *= t;
-  const QuadMatrix e = test::exponential(scaled);
-  std::vector<Quad> end(n, 0);
+    for (Float128& entry : row) entry *= t;
+  const Float128Matrix e = test::exponential(scaled);
+  std::vector<Float128> end(n, 0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) end[i] += e[i][j] * z[j];
-  Quad acceleration = 0;
+  Float128 acceleration = 0;
   for (std::size_t j = 0; j < n; ++j) acceleration += a[1][j] * end[j];
   return {static_cast<double>(end[0]), static_cast<double>(end[1]), static_cast<double>(acceleration)};
 }

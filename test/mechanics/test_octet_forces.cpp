@@ -16,10 +16,10 @@ namespace {
 
 using test::anisotropic_system;
 using test::states_of;
-using test::Touch;
+using test::TouchWithSlip;
 
-std::vector<std::vector<Touch>> all_touches() {
-  std::vector<std::vector<Touch>> all;
+std::vector<std::vector<TouchWithSlip>> all_touches() {
+  std::vector<std::vector<TouchWithSlip>> all;
   for (const Slip slip : {Slip::none, Slip::plus, Slip::minus, Slip::stick, Slip::regularized}) {
     for (const Face face : {Face::bottom, Face::right_side, Face::left_side}) all.push_back({{Site::a1, face, slip}});
     for (const Face face : {Face::top, Face::left_wall}) all.push_back({{Site::b2, face, slip}});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "../support/numbers.h"
 #include "../support/scenes.h"
 #include "mechanics/contact_frame.h"
 #include "mechanics/forces.h"
@@ -13,7 +14,8 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::kPi;
+
 constexpr double kFriction = 0.24;
 
 /// Force and moment that the base exerts on the part.
@@ -24,7 +26,7 @@ struct Reaction {
 };
 
 /// A contact at A1 on the bottom face: N, the sign of V, the lever q and d.
-struct Touch {
+struct EdgeTouch {
   double normal_force = 0.0, sign = 0.0, lever = 0.0, depth = 0.0, depth_rate = 0.0, slip = 0.0;
 };
 
@@ -36,7 +38,7 @@ System system_with(double base_damping = 0.0) {
 }
 
 /// Part pressed into the edge by up to 0.02, tilted and moving at random.
-State random_state(std::mt19937& random, const System& system) {
+State pressed_state(std::mt19937& random, const System& system) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   State q = {0.2 + 0.1 * u(random), 0.0, 0.4 * u(random), u(random), u(random), u(random)};
   const double depth = 0.01 * (1.0 + u(random));
@@ -45,7 +47,7 @@ State random_state(std::mt19937& random, const System& system) {
   return q;
 }
 
-Touch touch_of(const System& system, const State& q) {
+EdgeTouch touch_of(const System& system, const State& q) {
   const ContactKinematics k = contact_kinematics(system, q, Site::a1, Face::bottom);
   const double n = system.stiffness_y * k.depth + system.damping_y * k.depth_rate;
   return {n,
@@ -73,7 +75,7 @@ Reaction model(const System& system, const State& q) {
 
 /// The model's reaction written out as in docs/paper.md.
 Reaction written(const System& system, const State& q) {
-  const Touch t = touch_of(system, q);
+  const EdgeTouch t = touch_of(system, q);
   const double c = std::cos(q.phi), s = std::sin(q.phi), f = system.friction * t.sign;
   return {-t.normal_force * (s + f * c), t.normal_force * (c - f * s),
           t.normal_force * (t.lever - f * (system.base_distance - t.depth))};
@@ -83,7 +85,7 @@ enum class Print { fx, fy, fy_friction, moment, damper };
 
 /// The same with one term as the paper prints it in (1), (2), (4). F_Y is subtracted there.
 Reaction printed(const System& system, const State& q, Print term) {
-  const Touch t = touch_of(system, q);
+  const EdgeTouch t = touch_of(system, q);
   const double c = std::cos(q.phi), s = std::sin(q.phi), f = system.friction * t.sign;
   Reaction r = written(system, q);
   if (term == Print::damper) {
@@ -99,20 +101,20 @@ Reaction printed(const System& system, const State& q, Print term) {
 
 /// Energy that the part gains from the base beyond what its spring gives, per time, with elastic base and no friction.
 double gain_without_losses(const System& system, const State& q, const Reaction& r) {
-  const Touch t = touch_of(system, q);
+  const EdgeTouch t = touch_of(system, q);
   return r.power(q) + system.stiffness_y * t.depth * t.depth_rate;
 }
 
 /// Power of friction: what is left of the reaction's after that of N along the normal, -N d'.
 double friction_power(const System& system, const State& q, const Reaction& r) {
-  const Touch t = touch_of(system, q);
+  const EdgeTouch t = touch_of(system, q);
   return r.power(q) + t.normal_force * t.depth_rate;
 }
 
 template <class Look>
 void for_random_states(const System& system, const Look& look) {
   std::mt19937 random(4);
-  for (int i = 0; i < 300; ++i) look(random_state(random, system));
+  for (int i = 0; i < 300; ++i) look(pressed_state(random, system));
 }
 
 TEST(WrittenEquations, are_those_of_the_program) {
@@ -170,7 +172,7 @@ TEST(PrintedEquations, of_friction_drive) {
   system.friction = kFriction;
   double by_moment = 0.0, by_fy = 0.0;
   for_random_states(system, [&](const State& q) {
-    const Touch t = touch_of(system, q);
+    const EdgeTouch t = touch_of(system, q);
     EXPECT_NEAR(friction_power(system, q, model(system, q)), -kFriction * t.normal_force * std::abs(t.slip), 1e-12);
     by_moment = std::max(by_moment, friction_power(system, q, printed(system, q, Print::moment)));
     by_fy = std::max(by_fy, friction_power(system, q, printed(system, q, Print::fy_friction)));

@@ -5,13 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "../support/numbers.h"
 
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+using test::kEps;
 
 void fill_randomly(std::mt19937_64& random, Quad& x) {
   std::uniform_real_distribution<double> decade(-20.0, 3.0), sign(-1.0, 1.0);

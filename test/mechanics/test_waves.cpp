@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <stdexcept>
+
+#include "../support/numbers.h"
 
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+using test::kEps;
 
 TEST(Waves, are_good_to_two_digits_of_a_double) {
   std::mt19937_64 random(7);

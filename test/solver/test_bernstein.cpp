@@ -15,9 +15,9 @@ namespace vibratory_alignment {
 namespace {
 
 using test::exact_value;
+using test::Float128;
 using test::from_roots;
 using test::noise;
-using test::Quad;
 
 BernsteinForm form_of(const Series& g, int order) {
   BernsteinForm form;
@@ -44,12 +44,12 @@ Series cosine(double rate, double angle, int order) {
 }
 
 // sum b_j C(n, j) t^j (1 - t)^(n - j), from the left.
-Quad value_of(const BernsteinForm& form, double t) {
-  std::vector<Quad> b(form.b.begin(), form.b.begin() + form.degree + 1);
+Float128 value_of(const BernsteinForm& form, double t) {
+  std::vector<Float128> b(form.b.begin(), form.b.begin() + form.degree + 1);
   for (int r = form.degree; r > 0; --r)
     for (int j = 0; j < r; ++j)
       b[static_cast<std::size_t>(j)] =
-          b[static_cast<std::size_t>(j)] * Quad(1.0 - t) + b[static_cast<std::size_t>(j) + 1] * Quad(t);
+          b[static_cast<std::size_t>(j)] * Float128(1.0 - t) + b[static_cast<std::size_t>(j) + 1] * Float128(t);
   return b[0];
 }
 

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "../support/numbers.h"
 #include "solver/drive_loads.h"
 
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::kPi;
 
 double waveform(const Excitation& e, double t) {
   const double theta = std::fmod(e.frequency * t + e.phase, 2.0 * kPi);

@@ -21,8 +21,6 @@ namespace {
 using test::run;
 using test::scene_of;
 
-bool is_finite(const State& s) { return std::isfinite(s.x + s.y + s.phi + s.vx + s.vy + s.omega); }
-
 TEST(Failures, the_step_limit_ends_the_trial) {
   for (const long limit : {1L, 2L, 10L, 50L}) {
     Scene scene = scene_of(test::plain);

@@ -23,7 +23,7 @@ using test::Touch;
 using test::touch_point;
 using test::TouchPoint;
 
-constexpr int kOrder = 16;
+constexpr int kSeriesOrder = 16;
 
 /// Truncation error of the steps that lead to a decision.
 constexpr double kTolerance = 1e-11;
@@ -60,8 +60,9 @@ struct Decision {
     FrictionChoice(system, tolerance).decide(state, drives, at_rest, mode, unmoved);
     MotionSeries series(system);
     motion.contacts = mode.contacts;
-    series.expand_contact(state, drives, kOrder, motion);
-    step = std::min({1.0, series_step(system, motion, 1e-15), pair_step(series.direction(motion), kOrder, 1e-15)});
+    series.expand_contact(state, drives, kSeriesOrder, motion);
+    step =
+        std::min({1.0, series_step(system, motion, 1e-15), pair_step(series.direction(motion), kSeriesOrder, 1e-15)});
   }
 
   Slip slip(Site site) const { return mode.contacts[static_cast<std::size_t>(site)].slip; }
@@ -73,7 +74,7 @@ struct Decision {
     return motion.loaded[static_cast<std::size_t>(i)];
   }
   double tangential_force(Site site, double t = 0.0) const {
-    return value_at(series(site).tangential_force, kOrder - 1, t);
+    return value_at(series(site).tangential_force, kSeriesOrder - 1, t);
   }
 
   ContactMode mode;
@@ -106,19 +107,19 @@ void expect_law(const System& system, const Decision& d, const Touch& touch, dou
 
 // ---------------------------------------------------------------------------------------------- random states at rest
 
-struct Case {
+struct ChoiceCase {
   std::string name;
   std::vector<Touch> touches;
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+std::ostream& operator<<(std::ostream& out, const ChoiceCase& c) { return out << c.name; }
 
-const std::vector<Case>& cases() {
+const std::vector<ChoiceCase>& cases() {
   static const Touch edge{Site::a1, Face::bottom}, other_edge{Site::a2, Face::bottom}, side{Site::a2, Face::left_side};
   static const Touch corner{Site::b1, Face::top}, wall{Site::b1, Face::right_wall},
       other_wall{Site::b2, Face::left_wall};
   static const Touch floor{Site::b1_floor, Face::floor}, other_floor{Site::b2_floor, Face::floor};
-  static const std::vector<Case> all = {
+  static const std::vector<ChoiceCase> all = {
       {"edge", {edge}},
       {"side", {side}},
       {"corner", {corner}},
@@ -169,7 +170,7 @@ DriveForms random_drives(double size, std::mt19937& random) {
   return drives;
 }
 
-class FrictionChoiceOf : public testing::TestWithParam<Case> {
+class FrictionChoiceOf : public testing::TestWithParam<ChoiceCase> {
  protected:
   /// How often contacts stuck and slid.
   int stuck_ = 0, slid_ = 0;

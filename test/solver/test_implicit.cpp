@@ -7,6 +7,7 @@
 
 #include "../support/hard_scene.h"
 #include "../support/motion_check.h"
+#include "../support/random_scenes.h"
 #include "../support/reference_scene.h"
 #include "../support/restitution.h"
 #include "../support/runs.h"
@@ -296,6 +297,31 @@ TEST(Implicit, rings_after_slip_events_are_left_to_the_series) {
     EXPECT_GT(slips, 5) << stiffness;
     EXPECT_LE(following, 4 * slips) << stiffness;
   }
+}
+
+// Early only in contact that has settled: four steps of the series since an event, or ten in one contact. Trials that
+// begin with an implicit step pass over a ring of the start.
+TEST(Implicit, automatic_choice_first_waits_for_contact_to_settle) {
+  int early = 0;
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    Scene scene = test::random_scene(seed);
+    scene.solver.name = "auto";
+    scene.solver.tolerance = 1e-4;
+    scene.solver.step_limit = 200;  // the first one comes soon
+    int in_contact = 0, since_event = 0;
+    bool first = true;
+    test::run(scene, [&](const Segment& g) {
+      if (g.coarse && first) {
+        const bool starts_with_it = g.start.value() == 0.0;
+        EXPECT_TRUE(starts_with_it || since_event >= 4 || in_contact >= 10) << "seed " << seed;
+        early += !starts_with_it && in_contact < 10;
+        first = false;
+      }
+      in_contact = g.loaded_count > 0 ? in_contact + 1 : 0;
+      since_event = g.loaded_count > 0 && g.event_count == 0 ? since_event + 1 : 0;
+    });
+  }
+  EXPECT_GT(early, 10);
 }
 
 // A part wedged at rest is aligned from the start: the first series step tells, and nothing else is asked.

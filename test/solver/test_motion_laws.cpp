@@ -13,12 +13,12 @@
 namespace vibratory_alignment {
 namespace {
 
-struct Case {
+struct LawCase {
   std::string name;
   std::vector<std::string> settings;
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+std::ostream& operator<<(std::ostream& out, const LawCase& c) { return out << c.name; }
 
 /// Slips down at about 3; floor and walls when asked for.
 const std::string full = R"(
@@ -36,8 +36,8 @@ initial: {x: 0.2, y: 0.895, phi: 0.025}
 trial: {time_limit: 6.0, aligned_depth: 0.02}
 )";
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {
+const std::vector<LawCase>& cases() {
+  static const std::vector<LawCase> all = {
       {"dry", {}},
       {"tight", {"solver.tolerance=1e-12"}},
       {"loose", {"solver.tolerance=1e-4"}},
@@ -101,7 +101,7 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-class MotionLawsOf : public testing::TestWithParam<Case> {};
+class MotionLawsOf : public testing::TestWithParam<LawCase> {};
 INSTANTIATE_TEST_SUITE_P(scene, MotionLawsOf, testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
 

@@ -19,7 +19,7 @@ namespace {
 using test::plain;
 using test::scene_of;
 
-constexpr int kOrder = 20;
+constexpr int kMotionOrder = 20;
 
 struct Touch {
   Site site;
@@ -27,16 +27,16 @@ struct Touch {
   Slip slip;
 };
 
-struct Case {
+struct MotionCase {
   System system;
   DriveForms drives;
 };
 
 /// Soft base, so that a step is long enough for rounding not to blur the derivative.
-Case case_of(const std::vector<std::string>& settings = {}) {
+MotionCase case_of(const std::vector<std::string>& settings = {}) {
   std::vector<std::string> all = {"base={stiffness: {x: 90, y: 130}, damping: {x: 1.1, y: 1.7}}", "weight=0.3"};
   all.insert(all.end(), settings.begin(), settings.end());
-  Case s{make_system(scene_of(plain, all)), {}};
+  MotionCase s{make_system(scene_of(plain, all)), {}};
   s.system.has_floor = true;
   s.system.floor_depth = 0.41;
   // one of each kind, one per direction
@@ -101,7 +101,7 @@ double step_of(const System& system, MotionSeries& series, Segment& g) {
 }
 
 /// Checks the segment's series against the equations of motion at times up to the step.
-void expect_motion(const Case& s, const Segment& g, double step, const std::vector<Touch>& touches) {
+void expect_motion(const MotionCase& s, const Segment& g, double step, const std::vector<Touch>& touches) {
   const System& system = s.system;
   ASSERT_GT(step, 1e-5);
   for (const double share : {0.0, 0.31, 0.77}) {
@@ -150,7 +150,7 @@ void expect_motion(const Case& s, const Segment& g, double step, const std::vect
     }
     // truncation: the last terms of the velocities, 1e-15 of the leading ones, times order / step
     const double speed = 1.0 + std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega);
-    const double error = 1e-13 * size + 1e-14 * kOrder * speed / step;
+    const double error = 1e-13 * size + 1e-14 * kMotionOrder * speed / step;
     EXPECT_NEAR(derivative_at(g.vx, g.order, t), fx * system.x.inverse_inertia, error);
     EXPECT_NEAR(derivative_at(g.vy, g.order, t), fy * system.y.inverse_inertia, error);
     EXPECT_NEAR(derivative_at(g.omega, g.order, t), m * system.phi.inverse_inertia, error * system.phi.inverse_inertia);
@@ -162,12 +162,12 @@ void expect_motion(const Case& s, const Segment& g, double step, const std::vect
   }
 }
 
-void expect_contacts(const Case& s, const State& start, const std::vector<Touch>& touches) {
+void expect_contacts(const MotionCase& s, const State& start, const std::vector<Touch>& touches) {
   MotionSeries series(s.system);
   Segment segment;
   for (const Touch& touch : touches)
     segment.contacts[static_cast<std::size_t>(touch.site)] = {Phase::loaded, touch.face, touch.slip};
-  series.expand_contact(start, s.drives, kOrder, segment);
+  series.expand_contact(start, s.drives, kMotionOrder, segment);
   expect_motion(s, segment, step_of(s.system, series, segment), touches);
 }
 
@@ -182,7 +182,7 @@ const std::vector<std::pair<Site, Face>>& places() {
 class MotionSeriesAt : public testing::TestWithParam<std::pair<Site, Face>> {
  protected:
   void expect(Slip slip, const std::vector<std::string>& settings = {}) {
-    const Case s = case_of(settings);
+    const MotionCase s = case_of(settings);
     const Touch touch{GetParam().first, GetParam().second, slip};
     std::mt19937 random(71);
     for (int i = 0; i < 10; ++i) {
@@ -219,7 +219,7 @@ TEST_P(MotionSeriesAt, with_locked_motions) {
 
 // With everything fixed but y there is nothing that T could do; with a locked x the tilt alone keeps V = 0.
 TEST(MotionSeries, sticks_by_the_tilt_alone) {
-  const Case s = case_of({"gripper.stiffness.x=null"});
+  const MotionCase s = case_of({"gripper.stiffness.x=null"});
   std::mt19937 random(72);
   const Touch touch{Site::a1, Face::bottom, Slip::stick};
   for (int i = 0; i < 10; ++i) {
@@ -251,7 +251,7 @@ State wedged(const System& system, const Touch& a, const Touch& b, double phi, s
 }
 
 TEST(MotionSeries, two_contacts_that_stick) {
-  const Case s = case_of();
+  const MotionCase s = case_of();
   const Touch a{Site::a1, Face::bottom, Slip::stick}, b{Site::a2, Face::left_side, Slip::stick};
   std::mt19937 random(73);
   for (int i = 0; i < 10; ++i) {
@@ -267,7 +267,7 @@ TEST(MotionSeries, two_contacts_that_stick) {
 }
 
 TEST(MotionSeries, one_sticks_while_the_other_slips) {
-  const Case s = case_of();
+  const MotionCase s = case_of();
   const Touch a{Site::a1, Face::bottom, Slip::stick}, b{Site::a2, Face::left_side, Slip::plus};
   std::mt19937 random(74);
   for (int i = 0; i < 10; ++i)
@@ -277,13 +277,13 @@ TEST(MotionSeries, one_sticks_while_the_other_slips) {
 // The side of a part that leans by 1e-4 has 1e-8 of the damping along the other axis. N is k d + h d' to the last digit
 // though h is 1e-8 of what it is made of.
 TEST(MotionSeries, a_side_that_hardly_leans_into_a_strong_damper) {
-  const Case s = case_of({"base={stiffness: {x: 90, y: 130}, damping: {x: 0, y: 1e7}}", "friction=null"});
+  const MotionCase s = case_of({"base={stiffness: {x: 90, y: 130}, damping: {x: 0, y: 1e7}}", "friction=null"});
   Segment g;
   g.contacts[static_cast<std::size_t>(Site::a2)] = {Phase::loaded, Face::left_side, Slip::none};
   MotionSeries series(s.system);
   for (const double tilt : {1e-4, 3.1e-5, -2.3e-6}) {
     const State start{0.05, 0.7, tilt, -1e4, 0.0, 0.0};
-    series.expand_contact(start, s.drives, kOrder, g);
+    series.expand_contact(start, s.drives, kMotionOrder, g);
     const ContactKinematics k = contact_kinematics(s.system, start, Site::a2, Face::left_side);
     const double sine = std::sin(tilt), cosine = std::cos(tilt);
     const double force = (90.0 * cosine * cosine + 130.0 * sine * sine) * k.depth + 1e7 * sine * sine * k.depth_rate;
@@ -294,7 +294,9 @@ TEST(MotionSeries, a_side_that_hardly_leans_into_a_strong_damper) {
 /// Asks for so many powers more, in two turns.
 struct GoesOn : OrderChoice {
   int turns = 0;
-  int next_order(const Segment& segment) override { return ++turns == 1 ? segment.order + 2 : turns == 2 ? kOrder : 0; }
+  int next_order(const Segment& segment) override {
+    return ++turns == 1 ? segment.order + 2 : turns == 2 ? kMotionOrder : 0;
+  }
 };
 
 void expect_equal(const Series& a, const Series& b, int order) {
@@ -302,34 +304,34 @@ void expect_equal(const Series& a, const Series& b, int order) {
 }
 
 // Series that are asked for more powers while they are made are those that would have been made at once.
-void expect_the_same_in_turns(const Case& s, const State& start, const std::vector<Touch>& touches) {
+void expect_the_same_in_turns(const MotionCase& s, const State& start, const std::vector<Touch>& touches) {
   Segment at_once, in_turns;
   for (const Touch& touch : touches)
     at_once.contacts[static_cast<std::size_t>(touch.site)] = {Phase::loaded, touch.face, touch.slip};
   in_turns.contacts = at_once.contacts;
   MotionSeries series(s.system), other(s.system);
-  series.expand_contact(start, s.drives, kOrder, at_once);
+  series.expand_contact(start, s.drives, kMotionOrder, at_once);
   GoesOn choice;
-  other.expand_contact(start, s.drives, kOrder - 7, in_turns, &choice);
+  other.expand_contact(start, s.drives, kMotionOrder - 7, in_turns, &choice);
   EXPECT_EQ(choice.turns, 3);
-  ASSERT_EQ(in_turns.order, kOrder);
-  expect_equal(in_turns.vx, at_once.vx, kOrder);
-  expect_equal(in_turns.vy, at_once.vy, kOrder);
-  expect_equal(in_turns.omega, at_once.omega, kOrder);
+  ASSERT_EQ(in_turns.order, kMotionOrder);
+  expect_equal(in_turns.vx, at_once.vx, kMotionOrder);
+  expect_equal(in_turns.vy, at_once.vy, kMotionOrder);
+  expect_equal(in_turns.omega, at_once.omega, kMotionOrder);
   for (int i = 0; i < at_once.loaded_count; ++i) {
-    expect_equal(in_turns.loaded[i].normal_force, at_once.loaded[i].normal_force, kOrder);
-    expect_equal(in_turns.loaded[i].tangential_force, at_once.loaded[i].tangential_force, kOrder);
-    expect_equal(in_turns.loaded[i].slip_velocity, at_once.loaded[i].slip_velocity, kOrder);
+    expect_equal(in_turns.loaded[i].normal_force, at_once.loaded[i].normal_force, kMotionOrder);
+    expect_equal(in_turns.loaded[i].tangential_force, at_once.loaded[i].tangential_force, kMotionOrder);
+    expect_equal(in_turns.loaded[i].slip_velocity, at_once.loaded[i].slip_velocity, kMotionOrder);
   }
   for (const Site site : {Site::a1, Site::b2})
-    for (int k = 0; k <= kOrder; ++k)
+    for (int k = 0; k <= kMotionOrder; ++k)
       for (int i : {0, 1}) EXPECT_EQ(other.point(site, in_turns)[k][i], series.point(site, at_once)[k][i]) << k;
 }
 
 TEST_P(MotionSeriesAt, in_turns) {
   const std::string isotropic = "base={stiffness: {y: 130}, damping: {y: 1.7}}";
   for (const std::vector<std::string>& settings : {std::vector<std::string>{}, {isotropic}}) {
-    const Case s = case_of(settings);
+    const MotionCase s = case_of(settings);
     std::mt19937 random(79);
     for (const Slip slip : {Slip::plus, Slip::stick}) {
       const Touch touch{GetParam().first, GetParam().second, slip};
@@ -342,19 +344,19 @@ TEST_P(MotionSeriesAt, in_turns) {
 TEST(MotionSeries, two_contacts_in_turns) {
   const Touch wall{Site::b1, Face::right_wall, Slip::plus}, floor{Site::b1_floor, Face::floor, Slip::minus};
   std::mt19937 random(80);
-  const Case s = case_of();
+  const MotionCase s = case_of();
   expect_the_same_in_turns(s, wedged(s.system, wall, floor, 0.05, random), {wall, floor});
 }
 
 TEST(MotionSeries, wall_and_floor_at_once) {
-  const Case s = case_of();
+  const MotionCase s = case_of();
   const Touch wall{Site::b1, Face::right_wall, Slip::plus}, floor{Site::b1_floor, Face::floor, Slip::minus};
   std::mt19937 random(75);
   for (int i = 0; i < 10; ++i) expect_contacts(s, wedged(s.system, wall, floor, 0.05, random), {wall, floor});
 }
 
 TEST(MotionSeries, edge_and_corner_at_once) {
-  const Case s = case_of({"friction.regularization=0.5"});
+  const MotionCase s = case_of({"friction.regularization=0.5"});
   const Touch edge{Site::a1, Face::bottom, Slip::regularized}, corner{Site::b1, Face::top, Slip::regularized};
   std::mt19937 random(76);
   for (int i = 0; i < 10; ++i) {
@@ -366,13 +368,14 @@ TEST(MotionSeries, edge_and_corner_at_once) {
 }
 
 TEST(MotionSeries, flight) {
-  const Case s = case_of();
+  const MotionCase s = case_of();
   std::mt19937 random(77);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (int i = 0; i < 10; ++i) {
     MotionSeries series(s.system);
     Segment segment;
-    series.expand_free({u(random), u(random), u(random), u(random), u(random), u(random)}, s.drives, kOrder, segment);
+    series.expand_free({u(random), u(random), u(random), u(random), u(random), u(random)}, s.drives, kMotionOrder,
+                       segment);
     expect_motion(s, segment, step_of(s.system, series, segment), {});
     if (testing::Test::HasFailure()) return;
   }
@@ -380,13 +383,13 @@ TEST(MotionSeries, flight) {
 
 // Points and the force that would load again, in flight.
 TEST(MotionSeries, points_and_push_of_an_unloaded_contact) {
-  const Case s = case_of();
+  const MotionCase s = case_of();
   std::mt19937 random(78);
   for (const auto& [site, face] : places()) {
     const State start = random_state(s.system, {site, face, Slip::none}, random);
     MotionSeries series(s.system);
     Segment g;
-    series.expand_free(start, s.drives, kOrder, g);
+    series.expand_free(start, s.drives, kMotionOrder, g);
     const auto& point = series.point(site, g);
     const ContactFrame frame = contact_frame(s.system, face);
     Series depth{}, push{};

@@ -65,12 +65,12 @@ class Watch {
   long seen() const { return allocations; }
 };
 
-struct Case {
+struct WatchedCase {
   std::string name;
   std::vector<std::string> settings;
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+std::ostream& operator<<(std::ostream& out, const WatchedCase& c) { return out << c.name; }
 
 const std::string slips_down = R"(
 part: {half_width: 0.673, base_distance: 0.9015, inertia: 0.149}
@@ -84,27 +84,30 @@ initial: {x: 0.2, y: 0.895, phi: 0.025}
 trial: {time_limit: 20.0, aligned_depth: 0.02}
 )";
 
-class NoAllocation : public testing::TestWithParam<Case> {};
+class NoAllocation : public testing::TestWithParam<WatchedCase> {};
 INSTANTIATE_TEST_SUITE_P(
     scene, NoAllocation,
     testing::Values(
-        Case{"slips_down", {}}, Case{"insertion", {"contacts=[edges, corners, walls]", "slot.depth=0.2"}},
-        Case{"regularised", {"friction.regularization=2.0e-3"}}, Case{"recovery", {"base.recovery=true"}},
-        Case{"implicit", {"solver.name=implicit"}}, Case{"auto", {"solver.name=auto", "gripper.pressing_force=3"}},
-        Case{"rk4", {"solver={name: rk4, step: 1.0e-3}", "base.recovery=true"}},
-        Case{"semi_implicit", {"solver={name: semi_implicit, step: 1.0e-3}"}},
-        Case{"semi_implicit_in_the_slot",
-             {"solver={name: semi_implicit, step: 1.0e-3}", "contacts=[edges, corners, walls]", "slot.depth=0.2"}},
-        Case{"wedged",
-             {"contacts=[edges, walls]", "slot={clearance: 0.02, depth: 0.4}",
-              "gripper={anchor: {y: 0.3, phi: 0.2}, "
-              "stiffness: {x: 0.5, phi: 7}}",
-              "trial.time_limit=5"}},
-        Case{"all_waveforms",
-             {"excitation=[{amplitude: 1, frequency: 20, waveform: square}, {amplitude: 0.3, frequency: 7, "
-              "waveform: triangle, direction: x}, {amplitude: 0.1, frequency: 3, waveform: chirp, end_frequency: 30, "
-              "sweep_time: 2, direction: phi}]",
-              "trial.time_limit=3"}}),
+        WatchedCase{"slips_down", {}}, WatchedCase{"insertion", {"contacts=[edges, corners, walls]", "slot.depth=0.2"}},
+        WatchedCase{"regularised", {"friction.regularization=2.0e-3"}}, WatchedCase{"recovery", {"base.recovery=true"}},
+        WatchedCase{"implicit", {"solver.name=implicit"}},
+        WatchedCase{"auto", {"solver.name=auto", "gripper.pressing_force=3"}},
+        WatchedCase{"rk4", {"solver={name: rk4, step: 1.0e-3}", "base.recovery=true"}},
+        WatchedCase{"semi_implicit", {"solver={name: semi_implicit, step: 1.0e-3}"}},
+        WatchedCase{
+            "semi_implicit_in_the_slot",
+            {"solver={name: semi_implicit, step: 1.0e-3}", "contacts=[edges, corners, walls]", "slot.depth=0.2"}},
+        WatchedCase{"wedged",
+                    {"contacts=[edges, walls]", "slot={clearance: 0.02, depth: 0.4}",
+                     "gripper={anchor: {y: 0.3, phi: 0.2}, "
+                     "stiffness: {x: 0.5, phi: 7}}",
+                     "trial.time_limit=5"}},
+        WatchedCase{
+            "all_waveforms",
+            {"excitation=[{amplitude: 1, frequency: 20, waveform: square}, {amplitude: 0.3, frequency: 7, "
+             "waveform: triangle, direction: x}, {amplitude: 0.1, frequency: 3, waveform: chirp, end_frequency: 30, "
+             "sweep_time: 2, direction: phi}]",
+             "trial.time_limit=3"}}),
     [](const auto& info) { return info.param.name; });
 
 TEST_P(NoAllocation, in_advance) {

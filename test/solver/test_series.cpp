@@ -13,8 +13,8 @@ namespace vibratory_alignment {
 namespace {
 
 using test::exact_value;
+using test::Float128;
 using test::noise;
-using test::Quad;
 
 Series random_series(std::mt19937& random, int order) {
   std::normal_distribution<double> normal;
@@ -62,12 +62,12 @@ TEST(Series, integral) {
     const int order = i % (kMaxOrder + 1);
     const Series g = random_series(random, order);
     const double from = u(random), to = u(random);
-    Quad exact = 0, power_from = 1, power_to = 1;
+    Float128 exact = 0, power_from = 1, power_to = 1;
     double size = 0.0;
     for (int k = 0; k <= order; ++k) {
-      power_from *= Quad(from);
-      power_to *= Quad(to);
-      exact += Quad(g[k]) * (power_to - power_from) / Quad(k + 1);
+      power_from *= Float128(from);
+      power_to *= Float128(to);
+      exact += Float128(g[k]) * (power_to - power_from) / Float128(k + 1);
       size += std::abs(g[k]) / (k + 1);
     }
     EXPECT_NEAR(integral(g, order, from, to), static_cast<double>(exact), 1e-15 * size);
@@ -77,11 +77,11 @@ TEST(Series, integral) {
 /// The maximum on [from, to] by sampling and, about the best sample, by ternary search.
 double sampled_maximum(const Series& g, int order, double from, double to) {
   const int samples = 1000;
-  Quad best = exact_value(g, order, from);
+  Float128 best = exact_value(g, order, from);
   double at = from;
   for (int i = 1; i <= samples; ++i) {
     const double t = from + (to - from) * i / samples;
-    const Quad value = exact_value(g, order, t);
+    const Float128 value = exact_value(g, order, t);
     if (value > best) {
       best = value;
       at = t;

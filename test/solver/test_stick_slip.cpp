@@ -72,7 +72,7 @@ TEST(StickSlip, a_part_held_at_rest_slips_when_the_drive_reaches_f_n) {
 }
 
 /// A block pressed on edge and corner, with its tilt locked and free to slide along x.
-const std::string block = R"(
+const std::string two_footed_block = R"(
 part: {half_width: 0.7, base_distance: 0.9}
 slot: {clearance: 0.09}
 gripper: {stiffness: {x: 0.0}, anchor: {x: 0.3}, pressing_force: 0.5}
@@ -89,7 +89,7 @@ TEST(StickSlip, a_part_held_by_edge_and_corner_slips_when_the_drive_reaches_both
   // each carries half: sag N/k of half the load
   const double limit = 0.4 * 0.5 / (1.0 + 0.5e-4), expected = reached_at(limit, 0.3);
   for (const double frequency : {0.05, 1.0, 10.0}) {
-    Scene scene = test::scene_of(block);
+    Scene scene = test::scene_of(two_footed_block);
     drive_slowly(scene, Direction::x, 0.3, frequency);
     const std::vector<TimedEvent> events = events_of(scene, 1.1 * expected / frequency);
     ASSERT_FALSE(events.empty()) << frequency;

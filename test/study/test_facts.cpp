@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "study/facts.h"
 #include "study/formula.h"
+#include "study/metrics.h"
 
 namespace vibratory_alignment {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Reading reading(double value, double coverage = 1.0) { return {value, coverage, kNone, kNone}; }
 

@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "study/formula.h"
+#include "study/metrics.h"
 
 namespace vibratory_alignment {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 const Table kTable = {{"aligned", "duration", "gripper.stiffness.phi"}, {{1.0, 0.0}, {4.0, kNone}, {60.0, 10.0}}};
 

@@ -2,14 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "study/measure.h"
 
 namespace vibratory_alignment {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // f0 = 1, 2, 3 at x = 0 and 1, four samples each. Durations: at x = 0 about 10, 20, 30 (the last aligns in 3 of 4);
 // at x = 1 about 11, 22 and nothing.

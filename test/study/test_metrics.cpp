@@ -9,8 +9,6 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 CurvePoints curve(const std::vector<double>& at, const std::vector<double>& values) {
   CurvePoints points;
   for (std::size_t i = 0; i < at.size(); ++i) points.push_back({at[i], values[i], 0.0, 0.0, 1.0});

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "../support/numbers.h"
 #include "../support/scenes.h"
 #include "model/scene_loader.h"
 #include "study/trial_row.h"
@@ -13,7 +14,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::kPi;
 
 // A ball on an undamped base, springs at ease at the height of touch, dropped from 0.3 above: it meets the base with
 // v = 0.3 after a quarter of its swing, is in it for half a swing of the frequency sqrt(k + 1) with the largest force

@@ -10,20 +10,20 @@ namespace vibratory_alignment::test {
 
 /// factor * (roots[0] - t) (roots[1] - t) ..., rounded once at the end.
 inline Series from_roots(const std::vector<double>& roots, double factor = 1.0) {
-  std::vector<Quad> c(1, factor);
+  std::vector<Float128> c(1, factor);
   for (const double root : roots) {
     c.push_back(0);
-    for (std::size_t k = c.size() - 1; k > 0; --k) c[k] = c[k] * Quad(root) - c[k - 1];
-    c[0] *= Quad(root);
+    for (std::size_t k = c.size() - 1; k > 0; --k) c[k] = c[k] * Float128(root) - c[k - 1];
+    c[0] *= Float128(root);
   }
   Series series{};
   for (std::size_t k = 0; k < c.size(); ++k) series[k] = static_cast<double>(c[k]);
   return series;
 }
 
-inline Quad exact_value(const Series& g, int order, double t) {
-  Quad value = 0;
-  for (int k = order; k >= 0; --k) value = value * Quad(t) + Quad(g[static_cast<std::size_t>(k)]);
+inline Float128 exact_value(const Series& g, int order, double t) {
+  Float128 value = 0;
+  for (int k = order; k >= 0; --k) value = value * Float128(t) + Float128(g[static_cast<std::size_t>(k)]);
   return value;
 }
 

@@ -10,7 +10,7 @@
 
 namespace vibratory_alignment::test {
 
-struct Touch {
+struct TouchWithSlip {
   Site site;
   Face face;
   Slip slip;
@@ -32,9 +32,9 @@ inline System anisotropic_system() {
   return system;
 }
 
-inline ContactStates states_of(const std::vector<Touch>& touches) {
+inline ContactStates states_of(const std::vector<TouchWithSlip>& touches) {
   ContactStates contacts{};
-  for (const Touch& touch : touches) {
+  for (const TouchWithSlip& touch : touches) {
     ContactState& contact = contacts[static_cast<std::size_t>(touch.site)];
     contact.phase = Phase::loaded;
     contact.face = touch.face;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../support/numbers.h"
 #include "../support/scenes.h"
 #include "trial/sampler.h"
 #include "trial/simulation.h"
@@ -12,7 +13,8 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::kPi;
+
 constexpr long kPeriods = 10000, kSettled = 1000;
 
 struct Strobe {

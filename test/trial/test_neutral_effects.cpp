@@ -61,7 +61,7 @@ void expect_same(const Scene& without, const Scene& neutral) {
 }
 
 // A part that bounces on A1, all motions, far from corners and walls.
-const std::string bouncing = R"(
+const std::string bouncing_block = R"(
 part: {half_width: 0.673, base_distance: 0.9015, inertia: 0.42}
 slot: {clearance: 0.02}
 gripper:
@@ -76,7 +76,7 @@ initial: {x: 0.55, phi: 0.2}
 trial: {time_limit: 10.0, aligned_depth: 0.02}
 )";
 
-Scene with(const Settings& settings) { return scene_of(bouncing, settings); }
+Scene with(const Settings& settings) { return scene_of(bouncing_block, settings); }
 
 TEST(NeutralEffect, friction_of_zero) {
   expect_same(with({}), with({"friction={coefficient: 0.0}"}));
