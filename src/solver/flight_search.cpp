@@ -138,6 +138,7 @@ class Search {
     for (int i = static_cast<int>(first); i < static_cast<int>(first) + 2; ++i) {
       const auto site = static_cast<Site>(i);
       const Phase phase = contacts_[i].phase;
+      if (phase == Phase::outside && pinned[i] == Face::none && is_far<first>(view, site, horizon, nearest)) continue;
       const PointMotion motion = view.point(site);
       if (phase == Phase::unloaded) {
         if (nearest.take({0.0, 0.0}, false)) nearest.is_at(site, 0, motion);
@@ -152,16 +153,45 @@ class Search {
     return true;
   }
 
+  /// True when the site's speed is too low for any of its regions up to the horizon.
+  template <Site first>
+  bool is_far(const FlightView& view, Site site, double horizon, Nearest& nearest) const {
+    const Vec2 place = view.place(site);
+    double gap = INFINITY;
+    for (int half = 0; half < region_count(first); ++half)
+      gap = std::min(gap, gap_of(site_region(system_, first, half), place));
+    if (!(gap > view.most_speed(first, place) * horizon)) return false;
+    nearest.take({horizon, gap}, false);
+    return true;
+  }
+
+  /// How far out of the region a point is.
+  static double gap_of(const Region& region, const Vec2& place) {
+    double gap = -INFINITY;
+    for (int j = 0; j < region.count; ++j) gap = std::max(gap, -region.conditions[j].value(place));
+    return gap;
+  }
+
   /// Both corners have to be below `depth` and, if asked, between the walls.
   void outcome_ahead(const FlightView& view, double depth, bool between_walls, double horizon, Nearest& nearest) const {
     const double l = system_.slot_half_width;
     const RegionCondition asked[] = {
         {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
+    const int asked_count = between_walls ? 3 : 1;
+    double gap = -INFINITY;
+    for (const Site site : {Site::b1, Site::b2}) {
+      const Vec2 place = view.place(site);
+      for (int j = 0; j < asked_count; ++j) gap = std::max(gap, -asked[j].value(place));
+    }
+    if (gap > view.most_speed(Site::b1, {}) * horizon) {
+      nearest.take({horizon, gap}, false);
+      return;
+    }
     std::array<BoundedCurve, 6> curves;
     std::size_t count = 0, farthest = 0;
     for (const Site site : {Site::b1, Site::b2}) {
       const PointMotion motion = view.point(site);
-      for (int j = 0; j < (between_walls ? 3 : 1); ++j) {
+      for (int j = 0; j < asked_count; ++j) {
         curves[count] = motion.along(asked[j]);
         if (curves[count].value < curves[farthest].value) farthest = count;
         ++count;

@@ -28,24 +28,22 @@ FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
   return {system_, motion, longest};
 }
 
-Vec2 FlightView::corner_arm(Site site) const {
-  const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
-  return {beta * tilt_.cos + b * tilt_.sin, beta * tilt_.sin - b * tilt_.cos};
+double FlightView::most_speed(Site site, const Vec2& place) const {
+  const double speed = x_.bounds.rate + y_.bounds.rate;
+  const double arm = is_edge(site) ? std::abs(place.x) + std::abs(place.y) + speed * longest_
+                                   : system_.half_width + system_.base_distance;
+  return speed + phi_.bounds.rate * arm;
 }
 
 VIBRATORY_ALIGNMENT_INLINE PointMotion FlightView::point_without_turning(Site site) const {
   const auto [c, s] = tilt_;
   PointMotion m;
+  m.p = place(site);
   m.jerk = x_.bounds.third + y_.bounds.third;
   if (is_edge(site)) {
-    // body coordinates: r = A - C turned back by phi
-    const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
-    m.p = {rx * c + ry * s, ry * c - rx * s};
     m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
     m.acceleration = {-(x_.acceleration * c + y_.acceleration * s), x_.acceleration * s - y_.acceleration * c};
   } else {
-    const Vec2 r = corner_arm(site);
-    m.p = {state_.x + r.x, state_.y + r.y};
     m.rate = {state_.vx, state_.vy};
     m.acceleration = {x_.acceleration, y_.acceleration};
   }

@@ -42,6 +42,18 @@ class FlightView {
   /// In the axes of what the site may touch: an edge in those of the part, a corner in those of the world.
   PointMotion point(Site site) const;
 
+  /// Where that point is, and a bound on its speed as far as this view reaches: enough for most that are far.
+  Vec2 place(Site site) const {
+    if (is_edge(site)) {
+      // body coordinates: r = A - C turned back by phi
+      const double rx = side_of(site) * system_.slot_half_width - state_.x, ry = -state_.y;
+      return {rx * tilt_.cos + ry * tilt_.sin, ry * tilt_.cos - rx * tilt_.sin};
+    }
+    const Vec2 r = corner_arm(site);
+    return {state_.x + r.x, state_.y + r.y};
+  }
+  double most_speed(Site site, const Vec2& place) const;
+
   /// How long, up to `horizon`, the point surely stays out of the region, as long as any one of its conditions fails,
   /// and how far out it is now. `pinned`: the face on which it lies.
   Clearance clearance(const PointMotion& motion, const Region& region, Face pinned, double horizon) const;
@@ -51,7 +63,10 @@ class FlightView {
 
  private:
   /// From the mass centre to a corner.
-  Vec2 corner_arm(Site site) const;
+  Vec2 corner_arm(Site site) const {
+    const double beta = side_of(site) * system_.half_width, b = system_.base_distance;
+    return {beta * tilt_.cos + b * tilt_.sin, beta * tilt_.sin - b * tilt_.cos};
+  }
   PointMotion point_without_turning(Site site) const;
   // not inlined: what does not turn is not to pay for room that turning takes
   [[gnu::noinline]] PointMotion turning_point(Site site) const;

@@ -229,6 +229,62 @@ TEST(Flight, nothing_is_touched_before_what_look_ahead_tells) {
   EXPECT_GT(landings, 100);
 }
 
+/// How far the part is in the slot beyond `depth`, with both corners between its walls if asked; below zero: it is not.
+double how_far_in(const System& system, const State& state, double depth, bool between_walls) {
+  double least = INFINITY;
+  for (const Site site : {Site::b1, Site::b2}) {
+    const Vec2 p = site_point(system, state, site);
+    least = std::min(least, -p.y - depth);
+    if (between_walls) least = std::min(least, system.slot_half_width - std::abs(p.x));
+  }
+  return least;
+}
+
+TEST(Flight, nothing_is_aligned_before_what_look_ahead_tells) {
+  int leaps = 0, long_ones = 0, in_the_end = 0;
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    Scene scene = test::random_scene(seed);
+    scene.contacts = {true, false, false};
+    scene.trial.inserted_depth = scene.trial.aligned_depth + 0.1;
+    const System system = make_system(scene);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    // above or in the slot, on its way down or to the middle
+    State state = {1.5 * scene.slot.clearance * u(random),
+                   system.base_distance + 0.2 * u(random),
+                   0.1 * u(random),
+                   u(random),
+                   -1.0 + u(random),
+                   u(random)};
+    if (deepest(system, state) > 0.0 || how_far_in(system, state, system.aligned_depth, true) > 0.0) continue;
+    const DriveForms drives = random_drives(random);
+    Flight flight(static_cast<std::size_t>(drives.count));
+    flight.begin(system, state, drives, {});
+    if (!flight.exact()) continue;
+    double t = 0.0;
+    for (int leap = 0; leap < 30 && t < 2.0; ++leap) {
+      flight.at(t, state);
+      const double free = look_ahead(system, flight, t, state, {}, {}, {}, {true, true}, 2.0 - t).time;
+      if (free == 0.0) break;
+      ++leaps;
+      long_ones += free > 0.02;
+      for (int k = 0; k <= 200; ++k) {
+        State inside = state;
+        flight.at(t + free * k / 200.0, inside);
+        ASSERT_LE(how_far_in(system, inside, system.aligned_depth, true), 1e-13) << "seed " << seed << " at " << t;
+        ASSERT_LE(how_far_in(system, inside, system.inserted_depth, false), 1e-13) << "seed " << seed << " at " << t;
+      }
+      t += free;
+      State soon = state;
+      flight.at(t + 0.02, soon);
+      in_the_end += how_far_in(system, soon, system.aligned_depth, true) > 0.0;
+    }
+  }
+  EXPECT_GT(leaps, 500);
+  EXPECT_GT(long_ones, 200);
+  EXPECT_GT(in_the_end, 100);
+}
+
 // On its way out of a contact a site starts at depth 0 and must be seen as leaving, at any speed.
 TEST(Flight, a_site_that_leaves_its_face_is_no_hindrance) {
   const System system = make_system(test::scene_of(test::plain, {"gripper.anchor.phi=0.0"}));
