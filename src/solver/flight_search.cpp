@@ -160,7 +160,8 @@ class Search {
     double gap = INFINITY;
     for (int half = 0; half < region_count(first); ++half)
       gap = std::min(gap, gap_of(site_region(system_, first, half), place));
-    if (!(gap > view.most_speed(first, place) * horizon)) return false;
+    const double speed = is_edge(first) ? view.most_speed_of_edges() : view.most_speed_of_corners();
+    if (!(gap > speed * horizon)) return false;
     nearest.take({horizon, gap}, false);
     return true;
   }
@@ -183,7 +184,7 @@ class Search {
       const Vec2 place = view.place(site);
       for (int j = 0; j < asked_count; ++j) gap = std::max(gap, -asked[j].value(place));
     }
-    if (gap > view.most_speed(Site::b1, {}) * horizon) {
+    if (gap > view.most_speed_of_corners() * horizon) {
       nearest.take({horizon, gap}, false);
       return;
     }

@@ -16,7 +16,15 @@ FlightView::FlightView(const System& system, const Flight::Motion& motion, doubl
       tilt_(tilt_of(state_.phi)),
       x_(motion.x),
       y_(motion.y),
-      phi_(motion.phi) {}
+      phi_(motion.phi),
+      edge_speed_(x_.bounds.rate + y_.bounds.rate),
+      corner_speed_(edge_speed_) {
+  if (!system_.phi.moves) return;
+  // an edge goes round the mass centre as seen from the part, which moves on meanwhile
+  const double away = system_.slot_half_width + std::abs(state_.x) + std::abs(state_.y) + edge_speed_ * longest_;
+  corner_speed_ += phi_.bounds.rate * (system_.half_width + system_.base_distance);
+  edge_speed_ += phi_.bounds.rate * away;
+}
 
 FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
   motion.state.vx = -motion.state.vx;
@@ -26,13 +34,6 @@ FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
   motion.y.bounds = y_.bounds;
   motion.phi.bounds = phi_.bounds;
   return {system_, motion, longest};
-}
-
-double FlightView::most_speed(Site site, const Vec2& place) const {
-  const double speed = x_.bounds.rate + y_.bounds.rate;
-  const double arm = is_edge(site) ? std::abs(place.x) + std::abs(place.y) + speed * longest_
-                                   : system_.half_width + system_.base_distance;
-  return speed + phi_.bounds.rate * arm;
 }
 
 VIBRATORY_ALIGNMENT_INLINE PointMotion FlightView::point_without_turning(Site site) const {

@@ -42,7 +42,7 @@ class FlightView {
   /// In the axes of what the site may touch: an edge in those of the part, a corner in those of the world.
   PointMotion point(Site site) const;
 
-  /// Where that point is, and a bound on its speed as far as this view reaches: enough for most that are far.
+  /// Where that point is.
   Vec2 place(Site site) const {
     if (is_edge(site)) {
       // body coordinates: r = A - C turned back by phi
@@ -52,7 +52,9 @@ class FlightView {
     const Vec2 r = corner_arm(site);
     return {state_.x + r.x, state_.y + r.y};
   }
-  double most_speed(Site site, const Vec2& place) const;
+  /// Bounds on the speeds of such points as far as this view reaches, which tell enough of most that are far.
+  double most_speed_of_edges() const { return edge_speed_; }
+  double most_speed_of_corners() const { return corner_speed_; }
 
   /// How long, up to `horizon`, the point surely stays out of the region, as long as any one of its conditions fails,
   /// and how far out it is now. `pinned`: the face on which it lies.
@@ -79,6 +81,7 @@ class FlightView {
   double longest_;
   Tilt tilt_;
   FreeMotion::Outlook x_, y_, phi_;
+  double edge_speed_, corner_speed_;
 };
 
 }  // namespace vibratory_alignment
