@@ -8,6 +8,7 @@
 
 namespace vibratory_alignment {
 
+/// A quantity that cannot be told.
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Of those that are not NaN; of an even number of them the mean of the middle two.

@@ -11,8 +11,8 @@ namespace vibratory_alignment {
 namespace {
 
 // The scales of the small scene: 8 N / 4000 N/m = 2 mm; sqrt(0.1 kg / 4000 N/m) = 5 ms.
-constexpr double kMetres = 2e-3, kTime = 5e-3, kForce = 8.0;
-const ros::Time kLater(12.5);
+constexpr double kLengthScale = 2e-3, kTime = 5e-3, kForce = 8.0;
+const ros::Time kSampleStamp(12.5);
 
 ContactSample& at(Sample& sample, Site site) { return sample.contacts[static_cast<std::size_t>(site)]; }
 
@@ -44,8 +44,8 @@ TEST_F(MessagesTest, StateIsGivenDimensionlessAndInSi) {
   sample.state = {0.1, 0.9, 0.02, -0.3, 0.4, 5.0};
   sample.misalignment = 0.1;
   sample.mode = Mode::impact;
-  const AlignerState state = messages_.state(sample, kLater);
-  EXPECT_EQ(state.header.stamp, kLater);
+  const AlignerState state = messages_.state(sample, kSampleStamp);
+  EXPECT_EQ(state.header.stamp, kSampleStamp);
   EXPECT_EQ(state.header.frame_id, "slot");
   EXPECT_EQ(state.scene, "small");
   EXPECT_EQ(state.units, "dimensionless");
@@ -54,23 +54,23 @@ TEST_F(MessagesTest, StateIsGivenDimensionlessAndInSi) {
   EXPECT_DOUBLE_EQ(state.time, 2.0 * kTime);
   EXPECT_EQ(state.dimensionless.x, 0.1);
   EXPECT_EQ(state.dimensionless.omega, 5.0);
-  EXPECT_DOUBLE_EQ(state.si.x, 0.1 * kMetres);
-  EXPECT_DOUBLE_EQ(state.si.y, 0.9 * kMetres);
+  EXPECT_DOUBLE_EQ(state.si.x, 0.1 * kLengthScale);
+  EXPECT_DOUBLE_EQ(state.si.y, 0.9 * kLengthScale);
   EXPECT_EQ(state.si.phi, 0.02);
-  EXPECT_DOUBLE_EQ(state.si.vx, -0.3 * kMetres / kTime);
+  EXPECT_DOUBLE_EQ(state.si.vx, -0.3 * kLengthScale / kTime);
   EXPECT_DOUBLE_EQ(state.si.omega, 5.0 / kTime);
-  EXPECT_DOUBLE_EQ(state.misalignment, 0.1 * kMetres);
+  EXPECT_DOUBLE_EQ(state.misalignment, 0.1 * kLengthScale);
   EXPECT_EQ(state.mode, AlignerState::MODE_IMPACT);
-  EXPECT_DOUBLE_EQ(state.length_scale, kMetres);
+  EXPECT_DOUBLE_EQ(state.length_scale, kLengthScale);
   EXPECT_DOUBLE_EQ(state.time_scale, kTime);
   EXPECT_DOUBLE_EQ(state.force_scale, kForce);
 }
 
 TEST_F(MessagesTest, TellsWhetherTheFirstExcitationActsOnTheTilt) {
   Scene scene = small_scene::load();
-  EXPECT_FALSE(Messages(scene, Frames()).state(Sample(), kLater).excites_tilt);
+  EXPECT_FALSE(Messages(scene, Frames()).state(Sample(), kSampleStamp).excites_tilt);
   scene.excitations.front().direction = Direction::phi;
-  EXPECT_TRUE(Messages(scene, Frames()).state(Sample(), kLater).excites_tilt);
+  EXPECT_TRUE(Messages(scene, Frames()).state(Sample(), kSampleStamp).excites_tilt);
 }
 
 TEST_F(MessagesTest, PeaksAndImpulsesAreGivenPerSpot) {
@@ -78,7 +78,7 @@ TEST_F(MessagesTest, PeaksAndImpulsesAreGivenPerSpot) {
   at(sample, Site::a2) = pushed(0.0, 3.0, -0.79, 0.0);
   at(sample, Site::b1) = pushed(0.0, 1.0, 0.7, 0.0);
   at(sample, Site::b1_floor) = pushed(0.0, 2.0, 0.7, 0.0);
-  const AlignerState state = messages_.state(sample, kLater);
+  const AlignerState state = messages_.state(sample, kSampleStamp);
   EXPECT_FALSE(state.a1);
   EXPECT_TRUE(state.a2);
   EXPECT_TRUE(state.b1);
@@ -92,13 +92,13 @@ TEST_F(MessagesTest, PeaksAndImpulsesAreGivenPerSpot) {
 TEST_F(MessagesTest, ReactionsAreForcesOnThePartInTheirEdgeFrames) {
   Sample sample;
   at(sample, Site::a1) = pushed(-0.5, 3.0, 0.79, 0.0);
-  const geometry_msgs::WrenchStamped a1 = messages_.reaction(sample, Site::a1, kLater);
+  const geometry_msgs::WrenchStamped a1 = messages_.reaction(sample, Site::a1, kSampleStamp);
   EXPECT_EQ(a1.header.frame_id, "edge_a1");
   EXPECT_DOUBLE_EQ(a1.wrench.force.x, -0.5 * kForce);
   EXPECT_EQ(a1.wrench.force.y, 0.0);
   EXPECT_DOUBLE_EQ(a1.wrench.force.z, 3.0 * kForce);
   EXPECT_EQ(a1.wrench.torque.y, 0.0);
-  const geometry_msgs::WrenchStamped a2 = messages_.reaction(sample, Site::a2, kLater);
+  const geometry_msgs::WrenchStamped a2 = messages_.reaction(sample, Site::a2, kSampleStamp);
   EXPECT_EQ(a2.header.frame_id, "edge_a2");
   EXPECT_EQ(a2.wrench.force.z, 0.0);
 }
@@ -108,22 +108,22 @@ TEST_F(MessagesTest, ContactMomentIsAboutTheMassCentreAndTheNegativeYAxis) {
   sample.state.y = 0.9;
   // Up at the right: counter-clockwise, seen with y up; that is a negative torque about ROS y.
   at(sample, Site::a1) = pushed(0.0, 3.0, 0.79, 0.0);
-  const AlignerContacts contacts = messages_.contacts(sample, kLater);
+  const AlignerContacts contacts = messages_.contacts(sample, kSampleStamp);
   ASSERT_EQ(contacts.states.size(), 1U);
   const AlignerContact& contact = contacts.states[0];
   EXPECT_EQ(contact.info, "a1");
   ASSERT_EQ(contact.wrenches.size(), 1U);
-  EXPECT_DOUBLE_EQ(contact.total_wrench.torque.y, -0.79 * 3.0 * kForce * kMetres);
-  EXPECT_DOUBLE_EQ(contact.contact_positions[0].x, 0.79 * kMetres);
+  EXPECT_DOUBLE_EQ(contact.total_wrench.torque.y, -0.79 * 3.0 * kForce * kLengthScale);
+  EXPECT_DOUBLE_EQ(contact.contact_positions[0].x, 0.79 * kLengthScale);
   EXPECT_DOUBLE_EQ(contact.contact_normals[0].z, 1.0);
-  EXPECT_DOUBLE_EQ(contact.depths[0], 0.01 * kMetres);
+  EXPECT_DOUBLE_EQ(contact.depths[0], 0.01 * kLengthScale);
 }
 
 TEST_F(MessagesTest, ContactThatIsOverStillShowsItsPeakAndImpulse) {
   Sample sample;
   at(sample, Site::a1) = pushed(0.0, 3.0, 0.79, 0.0);
   at(sample, Site::a1).state.phase = Phase::outside;
-  const AlignerContacts contacts = messages_.contacts(sample, kLater);
+  const AlignerContacts contacts = messages_.contacts(sample, kSampleStamp);
   ASSERT_EQ(contacts.states.size(), 1U);
   EXPECT_TRUE(contacts.states[0].wrenches.empty());
   EXPECT_DOUBLE_EQ(contacts.states[0].peak_force, 6.0 * kForce);
@@ -133,10 +133,10 @@ TEST_F(MessagesTest, ContactThatIsOverStillShowsItsPeakAndImpulse) {
 TEST_F(MessagesTest, DurationIsNanUnlessAligned) {
   TrialResult result;
   result.outcome = Outcome::stalled;
-  EXPECT_TRUE(std::isnan(messages_.result(result, kLater).duration));
+  EXPECT_TRUE(std::isnan(messages_.result(result, kSampleStamp).duration));
   result.outcome = Outcome::aligned;
   result.aligned_time = 3.0;
-  const AlignerResult message = messages_.result(result, kLater);
+  const AlignerResult message = messages_.result(result, kSampleStamp);
   EXPECT_DOUBLE_EQ(message.duration, 3.0 * kTime);
   EXPECT_EQ(message.outcome, "aligned");
 }
@@ -147,7 +147,7 @@ TEST(MessagesWithoutScales, SiFieldsAreTheDimensionlessNumbers) {
   Sample sample;
   sample.time = 2.0;
   sample.state.x = 0.1;
-  const AlignerState state = Messages(scene, Frames()).state(sample, kLater);
+  const AlignerState state = Messages(scene, Frames()).state(sample, kSampleStamp);
   EXPECT_FALSE(state.has_scales);
   EXPECT_EQ(state.time, 2.0);
   EXPECT_EQ(state.si.x, 0.1);
@@ -155,10 +155,10 @@ TEST(MessagesWithoutScales, SiFieldsAreTheDimensionlessNumbers) {
 
 TEST(Transforms, TiltTurnsAboutTheNegativeYAxis) {
   const double phi = 0.3;
-  const auto part = part_transform({0.1, 0.9, phi, 0.0, 0.0, 0.0}, kMetres, Frames(), kLater).transform;
-  EXPECT_DOUBLE_EQ(part.translation.x, 0.1 * kMetres);
+  const auto part = part_transform({0.1, 0.9, phi, 0.0, 0.0, 0.0}, kLengthScale, Frames(), kSampleStamp).transform;
+  EXPECT_DOUBLE_EQ(part.translation.x, 0.1 * kLengthScale);
   EXPECT_EQ(part.translation.y, 0.0);
-  EXPECT_DOUBLE_EQ(part.translation.z, 0.9 * kMetres);
+  EXPECT_DOUBLE_EQ(part.translation.z, 0.9 * kLengthScale);
   // The part's x axis e1 = (cos phi, sin phi) points up: z component of the rotated x axis.
   const auto& q = part.rotation;
   EXPECT_NEAR(2.0 * (q.x * q.z - q.w * q.y), std::sin(phi), 1e-15);
@@ -167,16 +167,16 @@ TEST(Transforms, TiltTurnsAboutTheNegativeYAxis) {
 
 TEST(Transforms, EdgesLieAtTheSlotAndTakeThePrefix) {
   const Scene scene = small_scene::load();
-  const auto fixed = static_transforms(scene, frames_with_prefix("left"), {0.1, 0.2, 0.3}, kLater);
+  const auto fixed = static_transforms(scene, frames_with_prefix("left"), {0.1, 0.2, 0.3}, kSampleStamp);
   ASSERT_EQ(fixed.size(), 3U);
   EXPECT_EQ(fixed[0].header.frame_id, "world");
   EXPECT_EQ(fixed[0].child_frame_id, "left/slot");
   EXPECT_EQ(fixed[0].transform.translation.z, 0.3);
   EXPECT_EQ(fixed[1].header.frame_id, "left/slot");
   EXPECT_EQ(fixed[1].child_frame_id, "left/edge_a1");
-  EXPECT_DOUBLE_EQ(fixed[1].transform.translation.x, 0.79 * kMetres);
+  EXPECT_DOUBLE_EQ(fixed[1].transform.translation.x, 0.79 * kLengthScale);
   EXPECT_EQ(fixed[2].child_frame_id, "left/edge_a2");
-  EXPECT_DOUBLE_EQ(fixed[2].transform.translation.x, -0.79 * kMetres);
+  EXPECT_DOUBLE_EQ(fixed[2].transform.translation.x, -0.79 * kLengthScale);
 }
 
 }  // namespace
