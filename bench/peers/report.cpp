@@ -30,7 +30,7 @@ void print(const std::string& peer, const std::string& problem, double setting, 
 
 double report(const std::string& peer, const std::string& problem, double setting,
               const std::function<Outcome()>& integrate) {
-  constexpr double enough_s = 0.3, too_much_s = 3.0;
+  constexpr double enough_s = 0.15, too_much_s = 3.0;
   constexpr std::size_t least_repetitions = 5;
   Outcome outcome;
   std::vector<double> times;

@@ -29,14 +29,19 @@ class Run:
 
 
 def read(path):
-    """runs[problem][peer], loosest setting first; the answers of the peer `reference` apart."""
-    runs, answers = defaultdict(lambda: defaultdict(list)), {}
+    """runs[problem][peer], loosest setting first; the answers of the peer `reference` apart. Of several turns of one
+    setting the fastest."""
+    fastest, answers = {}, {}
     with open(path, newline="") as file:
         for run in map(Run, csv.DictReader(file)):
+            key = (run.problem, run.peer, run.setting)
             if run.peer == "reference":
                 answers[run.problem] = run.state
-            else:
-                runs[run.problem][run.peer].append(run)
+            elif key not in fastest or run.time_s < fastest[key].time_s:
+                fastest[key] = run
+    runs = defaultdict(lambda: defaultdict(list))
+    for (problem, peer, _), run in fastest.items():
+        runs[problem][peer].append(run)
     for peers in runs.values():
         for series in peers.values():
             series.sort(key=lambda run: -run.setting)

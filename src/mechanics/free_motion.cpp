@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/rough_log2.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -16,6 +18,9 @@ constexpr double kApart = 0.8;
 
 /// A mode has decayed when its velocity and third derivative are below these, relative to motions of order one.
 constexpr double kNoVelocity = 1e-18, kNoThird = 1e-6;
+
+/// Size of a vector of moderate numbers.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace
 
@@ -56,7 +61,7 @@ void FreeMotion::add(const DriveForm& form) {
   const double s = form.amplitude * form.cos_phase, c = form.amplitude * form.sin_phase;
   sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm});
   // a response far larger than the motion cancels against the start
-  if (!(std::hypot(sines_.back().sin_amplitude, sines_.back().cos_amplitude) < kLargestGain)) exact_ = false;
+  if (!(length(sines_.back().sin_amplitude, sines_.back().cos_amplitude) < kLargestGain)) exact_ = false;
 }
 
 void FreeMotion::settle(Waves& waves) {
@@ -185,14 +190,14 @@ void FreeMotion::homogeneous(double t, const Waves::Values& waves, double& c_cha
 
 /// Amplitudes of the modes, and when they have decayed.
 void FreeMotion::find_modes() {
-  for (const Sine& sine : sines_) driven_.add(std::hypot(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
+  for (const Sine& sine : sines_) driven_.add(length(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
   const double c = c_factor_, s = s_factor_, slow = square_ > 0.0 ? slow_rate() : decay_;
   apart_ = root_ > kApart * decay_;
   if (!apart_) {
     // t exp(-slow t) falls below exp(-slow t / 2) / slow
     if (slow > 0.0) fading_[0] = fading(std::abs(c) + std::abs(s + decay_ * c) / slow, own_rate_, 0.5 * slow);
   } else if (square_ < 0.0) {
-    swing_ = std::hypot(c, (s + decay_ * c) / root_);
+    swing_ = length(c, (s + decay_ * c) / root_);
     fading_[0] = fading(swing_, own_rate_, decay_);
   } else {
     slow_ = (c * (decay_ + root_) + s) / (2.0 * root_);
@@ -204,7 +209,8 @@ void FreeMotion::find_modes() {
 FreeMotion::Fading FreeMotion::fading(double amplitude, double rate, double decay) {
   const double velocity = amplitude * rate, third = velocity * rate * rate;
   const double excess = std::max({velocity / kNoVelocity, third / kNoThird, 1.0});
-  return {rate, decay > 0.0 ? std::log(excess) / decay : std::numeric_limits<double>::infinity()};
+  constexpr double kLn2 = 0.6931471805599453;
+  return {rate, decay > 0.0 ? kLn2 * rough_log2(excess) / decay : std::numeric_limits<double>::infinity()};
 }
 
 double FreeMotion::moving_rate(double t) const {

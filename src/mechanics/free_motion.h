@@ -73,7 +73,7 @@ class FreeMotion {
   double moving_rate(double t) const;
   double slow_rate() const;
   void find_modes();
-  /// A part of the motion, at most amplitude exp(-decay t): its rate, and until when it counts.
+  /// A part of the motion, at most amplitude exp(-decay t): its rate, and until when, roughly, it counts.
   struct Fading {
     double rate = 0.0, until = 0.0;
   };

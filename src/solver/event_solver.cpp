@@ -43,9 +43,10 @@ constexpr double kSmallestTolerance = 1e-16;
 /// the impacts after it and adds up in the energy.
 constexpr double kStepShare = 1e-3;
 
-/// Truncation error of friction forces in the tanh layer, as a share of the tolerance asked for: what of it moves the
-/// part is below that of a step.
-constexpr double kForceShare = 0.1;
+/// Truncation error of friction forces in the tanh layer, as a share of the tolerance asked for: the root of a tenth of
+/// it, within these. What of it moves the part is below that of a step; the loosest tolerances leave little of the share,
+/// as the poles of the layer bound its steps.
+constexpr double kLeastForceShare = 0.01, kMostForceShare = 0.1;
 
 /// Events in a row that advance time by nothing: more than this is no motion but a contradiction.
 constexpr int kMaxEventsWithoutProgress = 100;
@@ -100,6 +101,11 @@ System saturated(System system, double tolerance) {
   return system;
 }
 
+double force_tolerance(double tolerance) {
+  const double share = std::clamp(std::sqrt(0.1 * tolerance), kLeastForceShare, kMostForceShare);
+  return std::max(share * tolerance, kSmallestTolerance);
+}
+
 /// What is left of the deformations of a base at the segment's end.
 void recover(const System& system, const Segment& segment, Recoveries& recoveries) {
   const Tilt tilt = tilt_of(segment.end.phi);
@@ -130,11 +136,13 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
       step_limit_(step_limit),
       method_(method),
       series_(system_),
-      reach_(system_, tolerance_, std::max(kForceShare * tolerance, kSmallestTolerance)),
+      reach_(system_, tolerance_, force_tolerance(tolerance)),
       friction_(system_, tolerance_),
-      implicit_(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance)),
       flight_(excitations.size()) {
-  if (method_ != ContactMethod::series) collocation();  // made now, not in the first step
+  if (method_ != ContactMethod::series) {
+    collocation();  // made now, not in the first step
+    implicit_.emplace(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance));
+  }
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
   for (const Excitation& excitation : excitations) drives_.emplace_back(excitation, now_);
@@ -185,7 +193,7 @@ void EventSolver::go_to_end() {
   const bool hardly = implicit_now_ && segment_.duration <= kHardly * end.high;
   const bool progress = (end.high != now_.high || end.low != now_.low) && !hardly;
   events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
-  if (progress) implicit_.leave_start();
+  if (progress && implicit_) implicit_->leave_start();
   by_implicit_step_ = implicit_now_ || (by_implicit_step_ && !progress);
   now_ = end;
   if (events_without_progress_ > kMaxEventsWithoutProgress) throw SolverFailure("no contact state is consistent");
@@ -206,7 +214,7 @@ void EventSolver::go_to_end() {
     if (kind == EventKind::inserted) outcomes_.inserted = false;
     rings = rings || rings_base(kind);
   }
-  if (segment_.event_count > 0) implicit_.restart(rings);
+  if (segment_.event_count > 0 && implicit_) implicit_->restart(rings);
   if (rings) ring();
 }
 
@@ -277,7 +285,7 @@ void EventSolver::take_step(double longest, bool contact) {
     step = series_step(system_, segment_, point_tolerance);
   }
   go_along(step, longest, point_tolerance, contact);
-  if (!implicit_now_ || (implicit_.keeps_normal_forces(segment_, mode_.pins) && !implicit_.leaves_ring_of_start()))
+  if (!implicit_now_ || (implicit_->keeps_normal_forces(segment_, mode_.pins) && !implicit_->leaves_ring_of_start()))
     return;
   leave_implicit_step();
   go_along(series_contact_step(longest, forms_), longest, point_tolerance, contact);
@@ -350,9 +358,9 @@ const Segment& EventSolver::advance(double limit) {
     throw SolverFailure("the step has become too short");
 
   const bool whole_step = implicit_now_ && segment_.duration == implicit_length_;
-  if (!whole_step) implicit_.forget();
+  if (implicit_ && !whole_step) implicit_->forget();
   if (!leaps)
-    segment_.end = whole_step ? implicit_.end()
+    segment_.end = whole_step ? implicit_->end()
                    : contact  ? state_at(segment_, segment_.duration)
                               : flight_state(segment_.duration);
   if (!is_finite(segment_.end)) throw SolverFailure("the motion is no longer finite");
@@ -387,7 +395,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
 }
 
 void EventSolver::cut(double duration) {
-  implicit_.forget();
+  if (implicit_) implicit_->forget();
   segment_.duration = duration;
   segment_.end = segment_.loaded_count > 0 ? state_at(segment_, duration) : flight_state(duration);
   FoundEvents none;
@@ -413,7 +421,7 @@ void EventSolver::set_anchor_y(double anchor_y) {
 void EventSolver::forces_jump() {
   in_flight_ = false;
   if (!started_) return;
-  implicit_.restart(true);
+  if (implicit_) implicit_->restart(true);
   ring();
   const Instant end = segment_.start + segment_.duration;
   if (!mode_changes_) {

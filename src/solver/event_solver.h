@@ -3,6 +3,8 @@
 // event located to roundoff as a root of the polynomials.
 #pragma once
 
+#include <optional>
+
 #include "solver/flight.h"
 #include "solver/implicit_step.h"
 #include "solver/method_choice.h"
@@ -90,7 +92,7 @@ class EventSolver final : public Solver {
   MotionSeries series_;
   SeriesReach reach_;
   FrictionChoice friction_;
-  ImplicitStep implicit_;
+  std::optional<ImplicitStep> implicit_;  ///< none where the series take all steps: it is large
   bool implicit_now_ = false;     ///< the current segment is an implicit step
   double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
   double series_step_ = 0.0;      ///< last step of the series in contact

@@ -123,7 +123,7 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
 double EventSolver::lone_implicit_step(double longest, const DriveForms& drives) {
   double step = implicit_contact_step({longest}, drives);
   if (step == 0.0) {
-    implicit_.follow_base();
+    implicit_->follow_base();
     step = implicit_contact_step({longest}, drives);
   }
   return step > 0.0 ? step : series_contact_step(longest, drives);
@@ -134,7 +134,7 @@ double EventSolver::implicit_or_ring_step(double longest, const DriveForms& driv
   if (!ring_watch_.series_follow()) {
     const double step = implicit_contact_step(ring_watch_.bounds(longest), drives);
     if (step > 0.0) {
-      ring_watch_.settle_implicit(step < longest && implicit_.follows_base(step, drives));
+      ring_watch_.settle_implicit(step < longest && implicit_->follows_base(step, drives));
       return step;
     }
     ring_watch_.give_up_implicit();
@@ -144,7 +144,7 @@ double EventSolver::implicit_or_ring_step(double longest, const DriveForms& driv
   const double length = length_over_ring(longest, drives);
   if (length > 0.0) {
     ring_watch_.pass_over();
-    implicit_.suggest(length);
+    implicit_->suggest(length);
   }
   return step;
 }
@@ -155,7 +155,7 @@ double EventSolver::length_over_ring(double longest, const DriveForms& drives) {
   const FastMotion motion = fast_motion(system_, segment_);
   const double radian = motion.rate > 0.0 ? 1.0 / motion.rate : 0.0;
   if (normal_force_change(segment_, radian, 2) >= kQuiet) return 0.0;
-  return implicit_.length_over(motion, kWorthwhile * series_step_, longest, drives, segment_);
+  return implicit_->length_over(motion, kWorthwhile * series_step_, longest, drives, segment_);
 }
 
 /// The normal forces jump: the base rings.
@@ -194,7 +194,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
     choice_.start_passing_over(step);
   } else if (choice_.may_start(longest)) {
     const double length = length_over_ring(longest, drives);
-    if (choice_.starts(length, longest)) implicit_.suggest(std::min(length, choice_.trial_length()));
+    if (choice_.starts(length, longest)) implicit_->suggest(std::min(length, choice_.trial_length()));
   } else if (choice_.asks_series()) {
     choice_.learn_pace(expand_contact(0.0, drives));
     counts_.rhs_evaluations += segment_.order;
@@ -202,7 +202,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
   if (choice_.implicit()) {
     evaluations_before_ = counts_.rhs_evaluations;
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
-    follows_base_ = step < longest && implicit_.follows_base(step, drives);
+    follows_base_ = step < longest && implicit_->follows_base(step, drives);
     if (step > 0.0) return step;
     choice_.give_up_implicit(spent());
   }
@@ -212,7 +212,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
 
 /// An implicit step; 0 when there is none within the bounds.
 double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveForms& drives) {
-  const double step = implicit_.take(state_, drives, bounds, segment_, counts_);
+  const double step = implicit_->take(state_, drives, bounds, segment_, counts_);
   if (step == 0.0 || excess_friction(system_, segment_, 0.0) > kExcessFriction) return 0.0;
   implicit_now_ = true;
   implicit_length_ = step;
@@ -222,7 +222,7 @@ double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveF
 
 /// The series go instead of the implicit step that was taken.
 void EventSolver::leave_implicit_step() {
-  implicit_.forget();
+  implicit_->forget();
   implicit_now_ = false;
   found_.clear();
   if (method_ == ContactMethod::automatic) {
@@ -231,7 +231,7 @@ void EventSolver::leave_implicit_step() {
   } else if (method_ == ContactMethod::implicit) {
     ring_watch_.give_up_implicit();
   } else {
-    implicit_.follow_base();
+    implicit_->follow_base();
   }
 }
 
@@ -239,7 +239,7 @@ void EventSolver::leave_implicit_step() {
 /// Returns its length; 0 when none converges: the polynomials of the longer one stay, whose state there only they know.
 double EventSolver::shorten_implicit_step(double step) {
   for (int i = 0; i < kMostShorter; ++i, step *= 0.5) {
-    if (!implicit_.retake(step, segment_, counts_)) continue;
+    if (!implicit_->retake(step, segment_, counts_)) continue;
     series_.adopt(segment_);
     return implicit_length_ = step;
   }

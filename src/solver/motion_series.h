@@ -82,10 +82,11 @@ class MotionSeries {
     bool separate_t = false;            ///< T is a series of its own (stick, regularised)
     bool turning = false;               ///< k(n), h(n) change with the tilt
     double stiffness = 0.0, damping = 0.0;
-    PairSeries push, drag;                ///< force per unit of N (with sliding friction), and of T
-    Series push_moment{}, drag_moment{};  ///< moment likewise
-    Series k{}, h{};                      ///< of turning contacts
-    Series tanh{}, sech2{};               ///< regularised: tanh(V/eps) and 1 - tanh^2
+    // known to the power that is made
+    PairSeries push, drag;            ///< force per unit of N (with sliding friction), and of T
+    Series push_moment, drag_moment;  ///< moment likewise
+    Series k, h;                      ///< of turning contacts
+    Series tanh, sech2;               ///< regularised: tanh(V/eps) and 1 - tanh^2
   };
 
   struct Load {  ///< forces and moment of all contacts, one power

@@ -25,14 +25,21 @@ constexpr double kImpactRadians = 4.0, kRingRadians = 6.5;
 /// Powers more for a step of a part that turns where nothing ends it: each costs as many products as it is high.
 constexpr int kTurningPowers = 4;
 
+/// Truncation error of a step outside the tanh layer, as a share of that of one in it: the former are few and long, and
+/// leave about what they may, the latter are bound by the poles of the layer.
+constexpr double kOuterShare = 0.1;
+
 /// Terms this large leave no room for those of higher powers; and for those of twice as high ones.
 constexpr double kLarge = 1e150, kLargeByFar = 1e100;
+
+bool has_layer(const System& system) { return system.friction > 0.0 && system.regularization > 0.0; }
 
 }  // namespace
 
 SeriesReach::SeriesReach(const System& system, double tolerance, double force_tolerance)
     : system_(system),
       tolerance_(tolerance),
+      outer_tolerance_(has_layer(system) ? kOuterShare * tolerance : tolerance),
       force_tolerance_(force_tolerance),
       straight_{straight_series_order(tolerance, kImpactRadians), straight_series_order(tolerance, kRingRadians)},
       turning_{0, series_order(tolerance) + kTurningPowers} {}
@@ -56,6 +63,7 @@ double SeriesReach::layer_step(const Segment& segment) const {
 }
 
 double SeriesReach::time(const Segment& segment) const {
+  if (!is_in_layer(segment)) return contact_step(system_, segment, outer_tolerance_, force_tolerance_);
   return std::min(contact_step(system_, segment, tolerance_, force_tolerance_), layer_step(segment));
 }
 
@@ -96,10 +104,12 @@ SeriesReach::Orders SeriesReach::orders_for(const Segment& segment) const {
 /// True for a step that its series end, well within the range of numbers and outside the tanh layer: there steps are
 /// short for other reasons, and many.
 bool SeriesReach::may_go_on(const Segment& segment) const {
-  if (!(last_time_ < longest_ && last_terms(segment) < kLarge)) return false;
-  for (int i = 0; i < segment.loaded_count; ++i)
-    if (slip_of(segment, segment.loaded[static_cast<std::size_t>(i)]) == Slip::regularized) return false;
-  return true;
+  return last_time_ < longest_ && last_terms(segment) < kLarge && !is_in_layer(segment);
+}
+
+bool SeriesReach::is_in_layer(const Segment& segment) {
+  return std::any_of(segment.loaded.begin(), segment.loaded.begin() + segment.loaded_count,
+                     [&](const ContactSeries& contact) { return slip_of(segment, contact) == Slip::regularized; });
 }
 
 /// True when a contact is released or reaches a limit of friction or sliding by then, as far as the series tell. Of T

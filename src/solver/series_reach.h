@@ -8,7 +8,8 @@ namespace vibratory_alignment {
 
 class SeriesReach : public OrderChoice {
  public:
-  /// Truncation errors: of a step, relative to the motion, and of friction in the tanh layer, relative to its limit.
+  /// Truncation errors: of a step, relative to the motion (in a scene with the tanh law of one in the layer), and of
+  /// friction in the layer, relative to its limit.
   SeriesReach(const System& system, double tolerance, double force_tolerance);
 
   /// Time over which the series of the segment hold.
@@ -35,11 +36,13 @@ class SeriesReach : public OrderChoice {
   double layer_step(const Segment& segment) const;
   Orders orders_for(const Segment& segment) const;
   bool may_go_on(const Segment& segment) const;
+  static bool is_in_layer(const Segment& segment);
   static double last_terms(const Segment& segment);
   bool ends_by(const Segment& segment, double time) const;
 
   const System& system_;
-  double tolerance_, force_tolerance_;
+  double tolerance_, outer_tolerance_;  ///< of a step, and of one in which no contact is in the tanh layer
+  double force_tolerance_;
   Orders straight_, turning_;
   double longest_ = 0.0, last_time_ = 0.0;
   bool rings_ = false;  ///< nothing was near that would have ended the last step of which that was asked

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
+
+#include "mechanics/rough_log2.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -21,15 +21,8 @@ constexpr int kMostOrder = 22;
 constexpr double kUnitRounding = 1e-16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Base-2 logarithm of a normal positive number, good to 0.1: exponent and leading digits, read off its bits.
-double rough_log2(double value) {
-  std::int64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return static_cast<double>(bits) * 0x1p-52 - 1023.0;
-}
-
 /// log2 of the time at which the terms `order` - 1 and `order` of v have both fallen to `tolerance` times the largest
-/// of the leading terms, of which those of v or of a scale are given. What is zero counts as 2^-1023.
+/// of the leading terms, of which those of v or of a scale are given.
 double log2_step(const double* leading_terms, const Series& v, int order, double log2_tolerance) {
   double leading[kLeadingTerms], step[2];
   for (int j = 0; j < kLeadingTerms; ++j) leading[j] = log2_tolerance + rough_log2(std::abs(leading_terms[j]));
@@ -94,7 +87,7 @@ double log2_series_step(const System& system, const Segment& segment, double tol
 }  // namespace
 
 double series_step(const System& system, const Segment& segment, double tolerance) {
-  return std::exp2(log2_series_step(system, segment, tolerance));
+  return rough_exp2(log2_series_step(system, segment, tolerance));
 }
 
 double contact_step(const System& system, const Segment& segment, double tolerance, double force_tolerance) {
@@ -105,7 +98,7 @@ double contact_step(const System& system, const Segment& segment, double toleran
     if (slip_of(segment, contact) == Slip::regularized)
       shortest = std::min(shortest, log2_friction_step(contact, system.friction, segment.order, log2_tolerance));
   }
-  return std::exp2(shortest);
+  return rough_exp2(shortest);
 }
 
 double pair_step(const PairSeries& series, int order, double tolerance) {
@@ -115,7 +108,7 @@ double pair_step(const PairSeries& series, int order, double tolerance) {
     const double term = std::max(std::abs(series[k][0]), std::abs(series[k][1]));
     if (term > 0.0) shortest = std::min(shortest, (log2_tolerance - rough_log2(term)) / k);
   }
-  return std::exp2(shortest);
+  return rough_exp2(shortest);
 }
 
 int series_order(double tolerance) {

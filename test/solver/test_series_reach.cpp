@@ -88,6 +88,22 @@ TEST(SeriesReach, a_cosine_holds_until_its_last_terms_are_due) {
   EXPECT_NEAR(time, due, 0.15 * due);
 }
 
+// Steps of a scene with the tanh law: in the layer, here with a V that stays at zero, far from the poles, they hold to
+// the tolerance, outside of it to a tenth.
+TEST(SeriesReach, outside_the_tanh_layer_a_step_holds_to_a_tenth_of_the_tolerance) {
+  Motion motion(Slip::none, 0.3);
+  const auto time = [&](double tolerance) {
+    return SeriesReach(motion.system, tolerance, kTolerance).time(motion.segment);
+  };
+  const double to_all_of_it = time(kTolerance), to_a_tenth = time(0.1 * kTolerance);
+  motion.system.regularization = 1e-3;
+  EXPECT_EQ(time(kTolerance), to_a_tenth);
+  motion.segment.contacts[0].slip = Slip::regularized;
+  motion.segment.loaded[0].slip_velocity = constant(0.0);
+  EXPECT_EQ(time(kTolerance), to_all_of_it);
+  EXPECT_LT(to_a_tenth, 0.9 * to_all_of_it);
+}
+
 class SeriesReachOf : public testing::TestWithParam<Slip> {};
 INSTANTIATE_TEST_SUITE_P(every_law, SeriesReachOf, testing::Values(Slip::none, Slip::plus, Slip::minus));
 
@@ -249,6 +265,7 @@ TEST(SeriesReach, nothing_is_added_to_terms_that_are_nearly_too_large) {
 // Outside the layer V ends at its edge.
 TEST(SeriesReach, the_edge_of_the_tanh_layer_is_an_event) {
   Motion motion(Slip::plus, 0.0);
+  motion.system.regularization = 1e-3;
   SeriesReach reach(motion.system, kTolerance, kTolerance);
   const double time = reach.time(motion.segment);
   for (const double share : {1.15, 2.0}) {
