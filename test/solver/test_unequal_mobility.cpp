@@ -347,6 +347,7 @@ initial: {x: 0, y: 1, phi: -0.1437, vx: 0, vy: 0, omega: 0}
 trial: {time_limit: 2e-04, aligned_depth: 0}
 solver: {name: event, tolerance: 3e-12, step_limit: 1000}
 )"},
+      // sticks and slips by rounding: whether that takes hundreds or many thousands of steps is chance
       {"three_that_hold_all_axes", R"(
 part: {half_width: 0.41, base_distance: 3, inertia: 0.018}
 slot: {clearance: 0.01}
@@ -359,7 +360,7 @@ excitation:
   - {amplitude: 1, frequency: 1, phase: 0, direction: y, waveform: sine}
 initial: {x: -0.2, y: 1, phi: -0.5, vx: 0, vy: 0, omega: 0}
 trial: {time_limit: 0.04000000000000001, aligned_depth: 0}
-solver: {name: event, tolerance: 1e-08, step_limit: 1000}
+solver: {name: event, tolerance: 1e-08, step_limit: 100000}
 )"},
       {"balance_on_far_corners", R"(
 part: {half_width: 3e+03, base_distance: 1, inertia: 1}
@@ -532,8 +533,7 @@ TEST_P(UnequalMobility, obeys_the_laws_of_contact) {
 
 TEST_P(UnequalMobility, is_mirrored_in_the_mirrored_scene) {
   const TrialResult one = test::run(scene()), other = test::run(test::mirrored(scene()));
-  // three that hold all axes stick and slip by rounding: how many steps that takes, and so the step limit, is chance
-  if (std::string(GetParam().name) != "three_that_hold_all_axes") EXPECT_EQ(one.outcome, other.outcome);
+  EXPECT_EQ(one.outcome, other.outcome);
   const State& q = one.final_state;
   const double size = 1.0 + std::abs(q.x) + std::abs(q.y) + std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega);
   EXPECT_LE(test::distance(q, test::mirrored(other.final_state)), 1e-5 * size);
