@@ -4,8 +4,9 @@
 // part in lasting contact over the same: shaken across and along, it sticks and slips twenty times and never leaves the
 // base; and shaken by forces with kinks, after each of which the base rings, with all laws of friction, over frequency,
 // stiffness and damping ratio. Then random scenes of the hunt (test/hunt), of which the table has only those above the
-// ratio allowed. The three solvers take turns, so that what else the computer does meets all of them alike; a time is
-// the least of the turns: what else the computer does only adds to it.
+// ratio allowed. The three solvers take turns, so that what else the computer does meets all of them alike. A time is
+// the least of the turns; the ratio is the median of those within one turn, for the clock of a computer may change
+// between two speeds, and does not do so for each solver at once.
 // `> step limit`: more than a million steps, a hundred thousand in random scenes. **: the ratio is above 1.3.
 // Usage: auto_choice TOLERANCE SCENE_FILE ...
 #include <algorithm>
@@ -115,12 +116,12 @@ std::vector<Case> built_in_cases() {
 }
 
 struct Measured {
-  std::vector<double> seconds;
+  std::vector<double> seconds;  ///< of each turn; infinite where it was not taken, or the clock stood still
   std::string failure;
   long steps = 0;
 
-  double least() const { return *std::min_element(seconds.begin(), seconds.end()); }
-  bool usable() const { return failure.empty() && !seconds.empty(); }
+  double least() const { return seconds.empty() ? HUGE_VAL : *std::min_element(seconds.begin(), seconds.end()); }
+  bool usable() const { return failure.empty() && least() < HUGE_VAL; }
 };
 
 void take_turn(const va::Scene& scene, const char* solver, double tolerance, Measured& measured) {
@@ -136,7 +137,7 @@ void take_turn(const va::Scene& scene, const char* solver, double tolerance, Mea
   const va::TrialResult result = simulation.result();
   measured.failure = result.failure;
   measured.steps = result.counts.steps;
-  if (result.cpu_seconds > 0.0) measured.seconds.push_back(result.cpu_seconds);  // the clock may stand still
+  if (result.cpu_seconds > 0.0) measured.seconds.back() = result.cpu_seconds;
 }
 
 using Measurement = std::array<Measured, kSolvers.size()>;
@@ -150,10 +151,11 @@ void take_turns(const va::Scene& scene, double tolerance, double seconds, Measur
       if (m.usable()) best = std::min(best, m.least());
     for (std::size_t i = 0; i < all.size(); ++i) {
       Measured& m = all[i];
+      m.seconds.push_back(HUGE_VAL);
       if (turn > 0 && !m.failure.empty()) continue;
       if (turn >= kTurnsOfAll && m.usable() && m.least() > kHopeless * best) continue;
       take_turn(scene, kSolvers[i], tolerance, m);
-      spent += m.seconds.empty() ? 0.0 : m.seconds.back();
+      if (m.seconds.back() < HUGE_VAL) spent += m.seconds.back();
     }
   }
 }
@@ -166,7 +168,19 @@ double better(const Measurement& all) {
   return best;
 }
 
-double ratio_of(const Measurement& all) { return all[2].usable() ? all[2].least() / better(all) : HUGE_VAL; }
+/// Of the time of `auto` to that of the better of the others: the median over the turns.
+double ratio_of(const Measurement& all) {
+  std::vector<double> ratios;
+  for (std::size_t turn = 0; all[2].usable() && turn < all[2].seconds.size(); ++turn) {
+    const double best =
+        std::min(all[0].usable() ? all[0].seconds[turn] : HUGE_VAL, all[1].usable() ? all[1].seconds[turn] : HUGE_VAL);
+    if (best < HUGE_VAL && all[2].seconds[turn] < HUGE_VAL) ratios.push_back(all[2].seconds[turn] / best);
+  }
+  if (ratios.empty()) return HUGE_VAL;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
 
 bool is_above(double ratio) { return ratio > kAllowedRatio; }
 

@@ -48,7 +48,7 @@ class EventSolver final : public Solver {
   double lone_implicit_step(double longest, const DriveForms& drives);
   double implicit_or_ring_step(double longest, const DriveForms& drives);
   double chosen_contact_step(double longest, const DriveForms& drives);
-  double length_over_ring(double longest, const DriveForms& drives);
+  double length_over_ring(double least, double longest, const DriveForms& drives);
   void ring();
   double usual_reach();
   bool has_event(double step, const DriveForms& drives);

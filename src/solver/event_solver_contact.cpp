@@ -141,7 +141,7 @@ double EventSolver::implicit_or_ring_step(double longest, const DriveForms& driv
   }
   const double step = series_contact_step(longest, drives);
   if (!ring_watch_.asks(step)) return step;
-  const double length = length_over_ring(longest, drives);
+  const double length = length_over_ring(0.0, longest, drives);
   if (length > 0.0) {
     ring_watch_.pass_over();
     implicit_->suggest(length);
@@ -150,12 +150,12 @@ double EventSolver::implicit_or_ring_step(double longest, const DriveForms& driv
 }
 
 /// Length of an implicit step that passes over what the last step, one of the series, shows to ring; 0 when there is
-/// none.
-double EventSolver::length_over_ring(double longest, const DriveForms& drives) {
+/// none. One of `least` is worth it, however short the last implicit step had to be.
+double EventSolver::length_over_ring(double least, double longest, const DriveForms& drives) {
   const FastMotion motion = fast_motion(system_, segment_);
   const double radian = motion.rate > 0.0 ? 1.0 / motion.rate : 0.0;
   if (normal_force_change(segment_, radian, 2) >= kQuiet) return 0.0;
-  return implicit_->length_over(motion, kWorthwhile * series_step_, longest, drives, segment_);
+  return implicit_->length_over(motion, std::max(least, kWorthwhile * series_step_), longest, drives, segment_);
 }
 
 /// The normal forces jump: the base rings.
@@ -184,16 +184,18 @@ bool EventSolver::has_event(double step, const DriveForms& drives) {
 /// Automatic: one by the method that is chosen.
 double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
   choice_.look_at(segment_.contacts);
+  const double longest_implicit = ImplicitStep::longest_step(longest, drives), least = choice_.shortest_start();
   if (choice_.may_pass_over()) {
     const double step = series_contact_step(longest, drives), usual_step = usual_reach();
     const double change = normal_force_change(segment_, std::min(usual_step, longest));
-    if (!choice_.passing_over_pays(usual_step, longest, change) || has_event(std::min(step, longest), drives)) {
+    if (!choice_.passing_over_pays(usual_step, longest_implicit, change) ||
+        has_event(std::min(step, longest), drives)) {
       choice_.earn();
       return step;
     }
     choice_.start_passing_over(step);
-  } else if (choice_.may_start(longest)) {
-    const double length = length_over_ring(longest, drives);
+  } else if (least < longest_implicit) {
+    const double length = length_over_ring(least, longest, drives);
     if (choice_.starts(length, longest)) implicit_->suggest(std::min(length, choice_.trial_length()));
   } else if (choice_.asks_series()) {
     choice_.learn_pace(expand_contact(0.0, drives));

@@ -242,7 +242,7 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   if (!follows_) last_length_ = 0.0;
   equations_.begin(start, drives, segment.contacts, follows_, counts);
   if (at_start_) ring_decay_ = slowest_ring_decay(system_, start, segment.contacts);
-  const double longest = std::min(bounds.longest, longest_drive_step(drives));
+  const double longest = longest_step(bounds.longest, drives);
   const double shortest = std::max(bounds.shortest, kShortest * longest);
   const long evaluations_before = counts.rhs_evaluations;
   const FastMotion over = std::exchange(over_, {});
@@ -291,11 +291,15 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   return give_up();
 }
 
+double ImplicitStep::longest_step(double longest, const DriveForms& drives) {
+  return std::min(longest, longest_drive_step(drives));
+}
+
 /// The error of a step that passes over a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|, of which rebounds
 /// may make much more where the step is long: it is asked for as in one of kLongRing of the motion's rate at most.
 double ImplicitStep::length_over(const FastMotion& motion, double least, double longest, const DriveForms& drives,
                                  const Segment& segment) {
-  double h = std::min(longest, longest_drive_step(drives));
+  double h = longest_step(longest, drives);
   if (known_step_ > 0.0) h = std::min(h, std::max(known_step_, least));
   over_ = {};
   if (h * motion.rate < kResolved) return h;

@@ -41,6 +41,9 @@ class ImplicitStep {
   /// Time has passed: the steps to come are none at the start of the trial.
   void leave_start() { at_start_ = false; }
 
+  /// Length of a step of at most `longest` that resolves the excitations.
+  static double longest_step(double longest, const DriveForms& drives);
+
   /// Length of a step that passes over this motion, with an error within its tolerance, or is so short that it follows
   /// it; 0 when there is none. `segment` begins with the speeds and normal forces of now; a step of `least` is tried
   /// even where the last one had to be shorter.

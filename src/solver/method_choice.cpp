@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vibratory_alignment {
 namespace {
@@ -44,6 +45,9 @@ constexpr double kTrialShare = 0.16, kMostCredit = 130.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step; and in the tanh layer.
 constexpr double kTrial = 0.8, kTrialInLayer = 1.2;
+
+/// Length of a step that is not tried, however long it may be.
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Length of a trial at most, as a multiple of the one that would pay, and the same that an implicit step is to have
 /// where it is taken again once the base rings no more.
@@ -156,31 +160,38 @@ bool MethodChoice::trial_is_due() const {
   return pace() > 0.0 && credit_ >= needed && ((paid_ && series_steps_ >= wait_) || series_steps_ >= patience_);
 }
 
-/// True when an implicit step that may become so long is worth trying, whether or not an ordinary trial is due.
-bool MethodChoice::early_trial_pays(double length) const {
-  const bool is_steady = steps_alike_ >= kEarlyAfter && last_way_ <= kSteady * way_before_;
-  return kind_ < kInLayer && is_steady && series_steps_ >= wait_ && credit_ >= 0.0 &&
-         length >= kEarlyGain * kKind[kind_].usual_implicit() * way_ahead();
+/// Of an ordinary trial.
+double MethodChoice::shortest_trial() const {
+  return trial_is_due() && series_steps_ >= patience_ ? kShortestTrial * pace() : kNever;
 }
 
-bool MethodChoice::may_start(double longest) const {
+/// Of a step that goes on where implicit steps have paid.
+double MethodChoice::shortest_resumed() const {
+  const bool may_resume = trial_is_due() && paid_ && series_steps_ >= wait_;
+  return may_resume ? kResumeGain * kKind[kind_].usual_implicit() * way_ahead() : kNever;
+}
+
+/// Of one that is tried early, whether or not an ordinary trial is due.
+double MethodChoice::shortest_early() const {
+  const bool is_steady = steps_alike_ >= kEarlyAfter && last_way_ <= kSteady * way_before_;
+  const bool is_worth_it = kind_ < kInLayer && is_steady && series_steps_ >= wait_ && credit_ >= 0.0;
+  return is_worth_it ? kEarlyGain * kKind[kind_].usual_implicit() * way_ahead() : kNever;
+}
+
+double MethodChoice::shortest_start() const {
   // where events coincide the series go nowhere, and say nothing
-  return !implicit_ && last_way_ > 0.0 && (trial_is_due() || early_trial_pays(longest));
+  if (implicit_ || !(last_way_ > 0.0)) return kNever;
+  return std::min({shortest_trial(), shortest_resumed(), shortest_early()});
 }
 
 bool MethodChoice::starts(double length_over_ring, double longest) {
-  if (length_over_ring <= 0.0) return false;
-  const double way = way_ahead();
   const double length = std::min(length_over_ring, longest);
-  const bool is_due = trial_is_due();
-  const bool resumes =
-      is_due && paid_ && series_steps_ >= wait_ && length > kResumeGain * kKind[kind_].usual_implicit() * way;
-  const bool is_ordinary = is_due && series_steps_ >= patience_ && length > kShortestTrial * pace();
-  const bool is_early = !resumes && early_trial_pays(length);
-  if (!resumes && !is_early && !is_ordinary) return false;
+  const auto is_worth = [length](double shortest) { return shortest < kNever && length >= shortest; };
+  if (!is_worth(shortest_start())) return false;
+  const bool resumes = is_worth(shortest_resumed()), is_early = !resumes && is_worth(shortest_early());
   attempt_ = is_early ? Attempt::early_trial : tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
   implicit_ = tried_ = true;
-  if (resumes || is_early) paces_[kind_] = {way, std::max(paces_[kind_].steps, kPaceKnown)};
+  if (resumes || is_early) paces_[kind_] = {way_ahead(), std::max(paces_[kind_].steps, kPaceKnown)};
   resumed_length_ = resumes ? length_over_ring : 0.0;
   return true;
 }

@@ -38,12 +38,12 @@ class MethodChoice {
   /// An implicit step is due that passes over the ring.
   void start_passing_over(double step);
 
-  /// True when an implicit step may be tried now, where it may be `longest`, provided that it passes over what rings:
-  /// the last step is one of the series that shows it.
-  bool may_start(double longest) const;
+  /// Length from which on an implicit step is worth trying now, provided that it passes over what rings: the last step
+  /// is one of the series that shows it. Infinite where none is.
+  double shortest_start() const;
 
-  /// Asked when it may: one of this length passes over it; 0: none does. True when one is to be tried now: it is due
-  /// then, and begins with that length or `trial_length`, the shorter one.
+  /// One of this length passes over it; 0: none does. True when one of that or of `longest` is to be tried now: it is
+  /// due then, and begins with that length or `trial_length`, the shorter one.
   bool starts(double length_over_ring, double longest);
   double trial_length() const;
 
@@ -92,7 +92,9 @@ class MethodChoice {
   double pace() const;
   double way_ahead() const;
   bool trial_is_due() const;
-  bool early_trial_pays(double length) const;
+  double shortest_trial() const;
+  double shortest_resumed() const;
+  double shortest_early() const;
   void book_implicit(double gain);
   void leave_to_series(int steps);
 

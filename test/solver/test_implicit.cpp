@@ -301,6 +301,36 @@ TEST(Implicit, rings_after_slip_events_are_left_to_the_series) {
 
 // Early only in contact that has settled: four steps of the series since an event, or ten in one contact. Trials that
 // begin with an implicit step pass over a ring of the start.
+// A base without a damper, kicked twice a period, under a thin tanh layer: after each kick the first implicit step is
+// as short as the last ones before it had to be, and grows by five times with each. One that would not pay is not
+// tried.
+constexpr char kKicked[] = R"(
+part: {half_width: 0.14327078333104765, base_distance: 2.0466699283927987, inertia: 0.009268976822390971}
+slot: {clearance: 0.011215609417885845}
+gripper:
+  stiffness: {phi: 3.2822604340448884}
+  damping: {y: 0.05299719627815023, phi: 0.1324704311693375}
+  anchor: {x: 0.011390566103434273, y: 2.6744905723007117}
+base: {stiffness: {y: 1718.7821613827412}}
+contacts: [edges, corners]
+friction: {coefficient: 0.19665325588976607, regularization: 0.0006969330282191599}
+weight: 0.23835610024084802
+excitation:
+  - {amplitude: 1, frequency: 23.104610928587537, phase: 3.6320733641778684, direction: y}
+  - {amplitude: 0.46584695910633345, frequency: 3.00774792232322, phase: 1.2642614054473338, direction: y,
+     waveform: square}
+initial: {x: 0.011390566103434273, y: 1.921075049709474, phi: -0.032978719663615264}
+trial: {time_limit: 1.7107606220489322}
+solver: {step_limit: 20000}
+)";
+
+TEST(Implicit, automatic_choice_goes_on_after_a_ring_however_short_the_last_implicit_steps_were) {
+  const Scene scene = load_scene(YAML::Load(kKicked), "kicked");
+  const long implicit = run_with(scene, "implicit", 1e-6).counts.steps;
+  ASSERT_GT(run_with(scene, "event", 1e-6).counts.steps, 10 * implicit);
+  EXPECT_LT(run_with(scene, "auto", 1e-6).counts.steps, 1.4 * static_cast<double>(implicit));
+}
+
 TEST(Implicit, automatic_choice_first_waits_for_contact_to_settle) {
   int early = 0;
   for (unsigned seed = 1; seed <= 1000; ++seed) {

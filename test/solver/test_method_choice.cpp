@@ -45,7 +45,7 @@ const ContactStates kSliding = contacts_that({Slip::plus});
 
 /// True when an implicit step is tried now, where one of this length passes over what rings.
 bool starts(MethodChoice& choice, double length_over_ring, double longest = kFar) {
-  return choice.may_start(longest) && choice.starts(length_over_ring, longest);
+  return choice.starts(length_over_ring, longest);
 }
 
 void go_by_series(MethodChoice& choice, double gone = 1.0) {
@@ -291,7 +291,7 @@ TEST(MethodChoice, nothing_is_tried_where_the_series_have_gone_nowhere) {
   MethodChoice choice;
   for (int i = 0; i < 200; ++i) {
     choice.look_at(kSliding);
-    EXPECT_FALSE(choice.may_start(kFar));
+    EXPECT_FALSE(starts(choice, kFar));
     go_by_series(choice, 0.0);
   }
 }
@@ -343,7 +343,7 @@ TEST(MethodChoice, implicit_steps_that_have_paid_go_on_as_soon_as_the_ring_is_pa
   constexpr double kPays = 1.5 * 1.25 * kUsual;
   MethodChoice choice = rich();
   choice.ring();
-  EXPECT_FALSE(choice.may_start(kFar));  // no step shows the ring
+  EXPECT_FALSE(starts(choice, kFar));  // no step shows the ring
   go_by_series(choice);
   EXPECT_FALSE(starts(choice, 0.0));
   EXPECT_FALSE(starts(choice, 0.99 * kPays));
@@ -365,6 +365,27 @@ TEST(MethodChoice, steps_of_the_series_that_grow_while_a_ring_decays_are_expecte
     const double pays = 1.5 * kUsual * way;
     EXPECT_FALSE(starts(choice, 0.99 * pays)) << growth;
     EXPECT_TRUE(starts(choice, 1.01 * pays)) << growth;
+  }
+}
+
+// What it asks for is what it takes: an ordinary trial, one that goes on after a ring, an early one.
+TEST(MethodChoice, the_shortest_step_that_starts_is_known_beforehand) {
+  MethodChoice first, after_ring = rich(), early;
+  steps_until_trial(first);
+  EXPECT_EQ(first.shortest_start(), HUGE_VAL);  // one is due
+  first.give_up_implicit(kEffort);
+  while (first.shortest_start() == HUGE_VAL) go_by_series(first);
+  after_ring.ring();
+  EXPECT_EQ(after_ring.shortest_start(), HUGE_VAL);  // no step shows the ring
+  go_by_series(after_ring);
+  early.look_at(kSliding);
+  for (int i = 0; i < 4; ++i) go_by_series(early);
+  for (const MethodChoice& choice : {first, after_ring, early}) {
+    const double least = choice.shortest_start();
+    ASSERT_LT(least, HUGE_VAL);
+    MethodChoice shorter = choice, as_long = choice;
+    EXPECT_FALSE(starts(shorter, (1.0 - 1e-9) * least));
+    EXPECT_TRUE(starts(as_long, least));
   }
 }
 
