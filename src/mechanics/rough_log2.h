@@ -15,7 +15,7 @@ inline double rough_log2(double value) {
   return static_cast<double>(bits) * 0x1p-52 - 1023.0;
 }
 
-/// 2^exponent to 0.3 %; infinity from 2^1024 on, and 2^-1022 at least. What is not a number stays so.
+/// 2^exponent to 0.33 %; infinity from 2^1024 on, and 2^-1022 at least. What is not a number stays so.
 inline double rough_exp2(double exponent) {
   if (!(exponent < 1024.0)) return exponent > 0.0 ? INFINITY : exponent;
   if (exponent < -1022.0) return 0x1p-1022;

@@ -44,8 +44,8 @@ constexpr double kSmallestTolerance = 1e-16;
 constexpr double kStepShare = 1e-3;
 
 /// Truncation error of friction forces in the tanh layer, as a share of the tolerance asked for: the root of a tenth of
-/// it, within these. What of it moves the part is below that of a step; the loosest tolerances leave little of the share,
-/// as the poles of the layer bound its steps.
+/// it, within these. What of it moves the part is below that of a step; the loosest tolerances leave little of the
+/// share, as the poles of the layer bound its steps.
 constexpr double kLeastForceShare = 0.01, kMostForceShare = 0.1;
 
 /// Events in a row that advance time by nothing: more than this is no motion but a contradiction.

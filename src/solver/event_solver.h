@@ -93,13 +93,13 @@ class EventSolver final : public Solver {
   SeriesReach reach_;
   FrictionChoice friction_;
   std::optional<ImplicitStep> implicit_;  ///< none where the series take all steps: it is large
-  bool implicit_now_ = false;     ///< the current segment is an implicit step
-  double implicit_length_ = 0.0;  ///< time at which implicit_ knows the state at the segment's end
-  double series_step_ = 0.0;      ///< last step of the series in contact
-  RingWatch ring_watch_;          ///< implicit
-  MethodChoice choice_;           ///< automatic
-  bool follows_base_ = false;     ///< automatic: the present implicit step is so short that it follows the base
-  long evaluations_before_ = 0;   ///< automatic: until the present step
+  bool implicit_now_ = false;             ///< the current segment is an implicit step
+  double implicit_length_ = 0.0;          ///< time at which implicit_ knows the state at the segment's end
+  double series_step_ = 0.0;              ///< last step of the series in contact
+  RingWatch ring_watch_;                  ///< implicit
+  MethodChoice choice_;                   ///< automatic
+  bool follows_base_ = false;             ///< automatic: the present implicit step is so short that it follows the base
+  long evaluations_before_ = 0;           ///< automatic: until the present step
   Segment segment_;
   FoundEvents found_;  ///< in the step that is being taken
 

@@ -184,7 +184,7 @@ bool EventSolver::has_event(double step, const DriveForms& drives) {
 /// Automatic: one by the method that is chosen.
 double EventSolver::chosen_contact_step(double longest, const DriveForms& drives) {
   choice_.look_at(segment_.contacts);
-  const double longest_implicit = ImplicitStep::longest_step(longest, drives), least = choice_.shortest_start();
+  const double longest_implicit = ImplicitStep::longest_step(longest, drives);
   if (choice_.may_pass_over()) {
     const double step = series_contact_step(longest, drives), usual_step = usual_reach();
     const double change = normal_force_change(segment_, std::min(usual_step, longest));
@@ -194,8 +194,9 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
       return step;
     }
     choice_.start_passing_over(step);
-  } else if (least < longest_implicit) {
-    const double length = length_over_ring(least, longest, drives);
+  } else if (choice_.shortest_start() < longest_implicit) {
+    const double resumed = choice_.shortest_resumed();
+    const double length = length_over_ring(resumed < longest_implicit ? resumed : 0.0, longest, drives);
     if (choice_.starts(length, longest)) implicit_->suggest(std::min(length, choice_.trial_length()));
   } else if (choice_.asks_series()) {
     choice_.learn_pace(expand_contact(0.0, drives));

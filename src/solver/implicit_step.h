@@ -45,8 +45,8 @@ class ImplicitStep {
   static double longest_step(double longest, const DriveForms& drives);
 
   /// Length of a step that passes over this motion, with an error within its tolerance, or is so short that it follows
-  /// it; 0 when there is none. `segment` begins with the speeds and normal forces of now; a step of `least` is tried
-  /// even where the last one had to be shorter.
+  /// it; 0 when there is none. `segment` begins with the speeds and normal forces of now, or of the step before; a step
+  /// of `least` is tried even where the last one had to be shorter.
   double length_over(const FastMotion& motion, double least, double longest, const DriveForms& drives,
                      const Segment& segment);
 

@@ -77,7 +77,7 @@ constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 80, kMostInLayer 
 constexpr double kShortestTrial = 1.2;
 
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
-/// series step, and where the way to the next kink is worth it: so many series steps; fewer where next to nothing
+/// series step, and where the way that a step may go is worth it: so many series steps; fewer where next to nothing
 /// rings.
 constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 25.0, kNoRing = 1e-9;
 constexpr long kMostPassingEvaluations = 100;
@@ -165,13 +165,12 @@ double MethodChoice::shortest_trial() const {
   return trial_is_due() && series_steps_ >= patience_ ? kShortestTrial * pace() : kNever;
 }
 
-/// Of a step that goes on where implicit steps have paid.
 double MethodChoice::shortest_resumed() const {
   const bool may_resume = trial_is_due() && paid_ && series_steps_ >= wait_;
   return may_resume ? kResumeGain * kKind[kind_].usual_implicit() * way_ahead() : kNever;
 }
 
-/// Of one that is tried early, whether or not an ordinary trial is due.
+/// Of a step that is tried early, whether or not an ordinary trial is due.
 double MethodChoice::shortest_early() const {
   const bool is_steady = steps_alike_ >= kEarlyAfter && last_way_ <= kSteady * way_before_;
   const bool is_worth_it = kind_ < kInLayer && is_steady && series_steps_ >= wait_ && credit_ >= 0.0;
@@ -189,7 +188,8 @@ bool MethodChoice::starts(double length_over_ring, double longest) {
   const auto is_worth = [length](double shortest) { return shortest < kNever && length >= shortest; };
   if (!is_worth(shortest_start())) return false;
   const bool resumes = is_worth(shortest_resumed()), is_early = !resumes && is_worth(shortest_early());
-  attempt_ = is_early ? Attempt::early_trial : tried_ || kind_ >= kInLayer ? Attempt::trial : Attempt::easy_trial;
+  const bool is_easy = !resumes && !tried_ && kind_ < kInLayer;
+  attempt_ = is_early ? Attempt::early_trial : is_easy ? Attempt::easy_trial : Attempt::trial;
   implicit_ = tried_ = true;
   if (resumes || is_early) paces_[kind_] = {way_ahead(), std::max(paces_[kind_].steps, kPaceKnown)};
   resumed_length_ = resumes ? length_over_ring : 0.0;
@@ -227,7 +227,7 @@ bool MethodChoice::asks_series() {
 /// Implicit steps that the series outrun lose their credit, and the series learn their pace when they go.
 void MethodChoice::learn_pace(double step) {
   const double way = kUndisturbed * step / series_cost(), before = pace();
-  if (!(way > before)) return;
+  if (!(way > before) || !std::isfinite(way)) return;  // where nothing moves the series go any way
   const double now = before + kBelieved * (way - before);
   paces_[kind_] = {now, std::max(paces_[kind_].steps, kPaceKnown)};
   credit_ -= std::min(credit_ * (1.0 - before / now), kMostForfeit);
@@ -284,7 +284,7 @@ void MethodChoice::ring() {
 
 void MethodChoice::leave_contact() {
   may_pass_over_ = false;
-  for (Pace& pace : paces_) pace.steps = 0;
+  paces_ = {};
   leave_to_series(kTrialAfter);
 }
 

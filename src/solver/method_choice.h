@@ -42,6 +42,10 @@ class MethodChoice {
   /// is one of the series that shows it. Infinite where none is.
   double shortest_start() const;
 
+  /// The same where implicit steps have paid, and one goes on after a ring: it is worth trying however short the last
+  /// ones had to be.
+  double shortest_resumed() const;
+
   /// One of this length passes over it; 0: none does. True when one of that or of `longest` is to be tried now: it is
   /// due then, and begins with that length or `trial_length`, the shorter one.
   bool starts(double length_over_ring, double longest);
@@ -93,7 +97,6 @@ class MethodChoice {
   double way_ahead() const;
   bool trial_is_due() const;
   double shortest_trial() const;
-  double shortest_resumed() const;
   double shortest_early() const;
   void book_implicit(double gain);
   void leave_to_series(int steps);

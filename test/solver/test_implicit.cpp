@@ -299,8 +299,6 @@ TEST(Implicit, rings_after_slip_events_are_left_to_the_series) {
   }
 }
 
-// Early only in contact that has settled: four steps of the series since an event, or ten in one contact. Trials that
-// begin with an implicit step pass over a ring of the start.
 // A base without a damper, kicked twice a period, under a thin tanh layer: after each kick the first implicit step is
 // as short as the last ones before it had to be, and grows by five times with each. One that would not pay is not
 // tried.
@@ -331,6 +329,8 @@ TEST(Implicit, automatic_choice_goes_on_after_a_ring_however_short_the_last_impl
   EXPECT_LT(run_with(scene, "auto", 1e-6).counts.steps, 1.4 * static_cast<double>(implicit));
 }
 
+// Early only in contact that has settled: four steps of the series since an event, or ten in one contact. Trials that
+// begin with an implicit step pass over a ring of the start.
 TEST(Implicit, automatic_choice_first_waits_for_contact_to_settle) {
   int early = 0;
   for (unsigned seed = 1; seed <= 1000; ++seed) {

@@ -54,7 +54,7 @@ TEST(LayerRelease, friction_stays_within_its_limit_up_to_the_release) {
           const double t = share * g.duration;
           const double limit = scene.friction->coefficient * value_at(contact.normal_force, g.order, t);
           most_friction = std::max(most_friction, limit);
-          EXPECT_LE(std::abs(value_at(contact.tangential_force, g.order, t)), limit + 1e-6 * most_friction)
+          EXPECT_LE(std::abs(value_at(contact.tangential_force, g.order, t)), limit + 1e-7 * most_friction)
               << g.start.value() << " + " << t;
         }
       }

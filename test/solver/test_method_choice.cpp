@@ -389,6 +389,19 @@ TEST(MethodChoice, the_shortest_step_that_starts_is_known_beforehand) {
   }
 }
 
+// From ten series steps on an ordinary trial may be as short as 1.2; the other is worth it as before.
+TEST(MethodChoice, the_step_that_goes_on_after_a_ring_is_known_however_long_the_ring) {
+  MethodChoice choice = rich();
+  choice.ring();
+  for (int i = 0; i < 2 * kTrialAfter; ++i) {
+    go_by_series(choice);
+    EXPECT_NEAR(choice.shortest_resumed(), 1.5 * 1.25 * kUsual, 1e-9) << i;
+  }
+  EXPECT_NEAR(choice.shortest_start(), 1.2, 1e-9);
+  EXPECT_TRUE(starts(choice, 1.01 * 1.5 * 1.25 * kUsual));
+  EXPECT_TRUE(choice.bounds(kFar).passes_over);
+}
+
 TEST(MethodChoice, what_is_given_up_after_a_ring_is_tried_again_less_and_less_often) {
   MethodChoice choice = rich();
   const auto steps_until_resumed = [&] {
@@ -415,6 +428,13 @@ TEST(MethodChoice, implicit_steps_that_have_not_paid_have_to_wait) {
   int steps = 0;
   for (; steps < 1000 && !starts(choice, 0.9 * kEarly); ++steps) go_by_series(choice);
   EXPECT_EQ(steps, kTrialAfter);
+}
+
+// Where nothing moves they go any way, which is no pace.
+TEST(MethodChoice, series_that_go_any_way_say_nothing) {
+  MethodChoice asked = rich(), not_asked = rich();
+  asked.learn_pace(HUGE_VAL);
+  EXPECT_EQ(steps_until_dropped(asked), steps_until_dropped(not_asked));
 }
 
 TEST(MethodChoice, the_series_are_asked_less_and_less_often) {
@@ -528,6 +548,17 @@ TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
   choice.settle_implicit(400.0, 501.0, kEffort);
   EXPECT_TRUE(choice.implicit());
   EXPECT_FALSE(choice.may_pass_over());
+}
+
+// The next one, after a ring, goes on where that has paid, and is none of the easy ones.
+TEST(MethodChoice, a_step_that_has_passed_over_a_ring_has_paid) {
+  MethodChoice choice = passing();
+  choice.settle_implicit(400.0, 501.0, kEffort);
+  choice.ring();
+  go_by_series(choice);
+  ASSERT_TRUE(starts(choice, kFar));
+  EXPECT_TRUE(choice.bounds(kFar).passes_over);
+  EXPECT_FALSE(choice.bounds(kFar).easily);
 }
 
 TEST(MethodChoice, a_ring_is_passed_over_where_it_is_small_and_the_way_is_long) {
