@@ -36,9 +36,6 @@ constexpr double kLongestFlightSegment = 20.0;
 /// Longest flight in one closed form, in radians of its fastest motion.
 constexpr double kLongestFlight = 6000.0;
 
-/// Truncation error below which rounding is all that is left.
-constexpr double kSmallestTolerance = 1e-16;
-
 /// Truncation error of a contact step as a share of the tolerance asked for: what a step leaves behind is amplified by
 /// the impacts after it and adds up in the energy.
 constexpr double kStepShare = 1e-3;

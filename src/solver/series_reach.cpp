@@ -29,9 +29,6 @@ constexpr int kTurningPowers = 4;
 /// leave about what they may, the latter are bound by the poles of the layer.
 constexpr double kOuterShare = 0.1;
 
-/// Truncation error below which rounding is all that is left.
-constexpr double kLeastTolerance = 1e-16;
-
 /// Terms this large leave no room for those of higher powers; and for those of twice as high ones.
 constexpr double kLarge = 1e150, kLargeByFar = 1e100;
 
@@ -42,7 +39,7 @@ bool has_layer(const System& system) { return system.friction > 0.0 && system.re
 SeriesReach::SeriesReach(const System& system, double tolerance, double force_tolerance)
     : system_(system),
       tolerance_(tolerance),
-      outer_tolerance_(has_layer(system) ? std::max(kOuterShare * tolerance, kLeastTolerance) : tolerance),
+      outer_tolerance_(has_layer(system) ? std::max(kOuterShare * tolerance, kSmallestTolerance) : tolerance),
       force_tolerance_(force_tolerance),
       straight_{straight_series_order(outer_tolerance_, kImpactRadians),
                 straight_series_order(outer_tolerance_, kRingRadians)},

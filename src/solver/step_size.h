@@ -6,6 +6,9 @@
 
 namespace vibratory_alignment {
 
+/// Truncation error below which rounding is all that is left.
+constexpr double kSmallestTolerance = 1e-16;
+
 /// Longest time over which the last two terms of every velocity's series stay below `tolerance` times that velocity's
 /// largest leading term: the truncation error relative to each axis' own motion, whatever its scale.
 /// Likewise for T of sticking contacts, relative to T and to the force f N that it may reach.

@@ -221,6 +221,19 @@ TEST(SeriesReach, straight_motion_goes_farther) {
   EXPECT_EQ(other.next_order(motion.segment), impact);
 }
 
+// In a scene with the tanh law as well, where it is held to a tenth of the tolerance, but never to less than rounding.
+TEST(SeriesReach, straight_motion_outside_the_tanh_layer_goes_as_far) {
+  for (const double tolerance : {kTolerance, 1e-15, 1e-16}) {
+    Motion motion = straight(Slip::none, 0.0);
+    motion.system.regularization = 1e-3;
+    motion.segment.loaded[0].normal_force[0] += 2.0;
+    motion.segment.order = series_order(tolerance);
+    SeriesReach reach(motion.system, tolerance, tolerance);
+    reach.begin(kForever);
+    EXPECT_EQ(reach.next_order(motion.segment), straight_series_order(std::max(0.1 * tolerance, 1e-16), 4.0));
+  }
+}
+
 // A part that turns at all, several contacts, the tanh layer, rates whose powers overflow.
 TEST(SeriesReach, what_makes_powers_dear_or_useless_gets_fewer) {
   for (const double omega : {1e-3, 1e-50}) {
