@@ -1,5 +1,5 @@
-// Two and four numbers at once, the latter in one register where the processor has AVX2, else in two. The results are
-// the same to the bit.
+// Two and four numbers at once, the latter in one register where the processor has AVX2, else in two. Where it has that
+// it adds products without rounding them first (FMA): the last digits are not those of other processors.
 #pragma once
 
 namespace vibratory_alignment {
@@ -11,16 +11,31 @@ using Quad = double __attribute__((vector_size(32)));
 #define VIBRATORY_ALIGNMENT_INLINE __attribute__((always_inline)) inline
 #define VIBRATORY_ALIGNMENT_INLINE_LAMBDA __attribute__((always_inline))
 
+/// The first two of four, the last two, and two in the other order.
+VIBRATORY_ALIGNMENT_INLINE Pair low(const Quad& of) { return Pair{of[0], of[1]}; }
+VIBRATORY_ALIGNMENT_INLINE Pair high(const Quad& of) { return Pair{of[2], of[3]}; }
+VIBRATORY_ALIGNMENT_INLINE Pair swapped(const Pair& of) { return Pair{of[1], of[0]}; }
+
+/// A product that is rounded before something is added. Of a b + c d either one may be, as the compiler likes: where
+/// results of different functions are to be the same to the bit, it is told which.
+template <typename Number>
+VIBRATORY_ALIGNMENT_INLINE Number rounded(Number product) {
+#ifdef __x86_64__
+  asm("" : "+x"(product));
+#endif
+  return product;
+}
+
 #ifdef __x86_64__
 template <typename Body>
-__attribute__((target("avx2"), noinline)) void run_on_avx2(const Body& body) {
+__attribute__((target("avx2,fma"), noinline)) void run_on_avx2(const Body& body) {
   body();
 }
 
-/// Runs the body, a lambda that is marked as above, compiled for AVX2 where the processor has it.
+/// Runs the body, a lambda that is marked as above, compiled for AVX2 and FMA where the processor has them.
 template <typename Body>
 inline void run_widely(const Body& body) {
-  static const bool wide = __builtin_cpu_supports("avx2") != 0;
+  static const bool wide = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
   wide ? run_on_avx2(body) : body();
 }
 #else

@@ -12,7 +12,7 @@ struct LeftFactors {
   Quad next;       ///< c, s, c, s of the next power
   Quad turn_push;  ///< c, s of the next power, c, s
   Quad moment;     ///< where T is a series of its own: c, s, and the moments per unit of N and of T
-  Quad layer;      ///< tanh law: tanh, tanh, 1 - tanh^2, -
+  Quad layer;      ///< tanh law: tanh, tanh, tanh^2, -
   Pair face;       ///< k(n) that changes: c, cos^2
 };
 struct RightFactors {
@@ -27,12 +27,13 @@ struct RightFactors {
 
 /// The whole expansion for one contact: the same recurrences, in one loop. All products of series whose factors are
 /// known when the forces of a power are asked for are summed together, for these forces and for the direction and the
-/// centre of the next but one power; what a power itself finds is added as its last term, by constant factors: the way
-/// from one velocity to the next, on which the powers wait for one another, is kept short. n and t lie along the axes
-/// of the frame: kLevel, n along the second. k(n) and h(n) of a face that turns on a base stiffer one way are a
-/// constant and a multiple of cos^2 phi (kVaries). T of what sticks takes V' out: of what the accelerations without it
-/// make of V', and of what turning adds. False, with nothing but the start expanded, where V' has to be taken out twice
-/// or nothing can be held.
+/// centre of the next but one power; what a power itself finds is added as its last term, by constant factors. The way
+/// from one velocity to the next, on which the powers wait for one another, is kept short: d' and V are what these sums
+/// make of them, known a power ahead, and the velocities times constants, so that N and T do not wait for the point of
+/// the contact. n and t lie along the axes of the frame: kLevel, n along the second. k(n) and h(n) of a face that turns
+/// on a base stiffer one way are a constant and a multiple of cos^2 phi (kVaries). T of what sticks takes V' out: of
+/// what the accelerations without it make of V', and of what turning adds. False, with nothing but the start expanded,
+/// where V' has to be taken out twice or nothing can be held.
 template <bool kEdge, bool kTurns, bool kVaries, bool kLevel, MotionSeries::Law kLaw>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment) {
   constexpr bool kTanh = kLaw == Law::layer, kSticks = kLaw == Law::sticks, kOwnT = kTanh || kSticks;
@@ -42,19 +43,25 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   const ContactFrame& f = contact.frame;
   const double side = side_of(contact.site), l = side * system_.slot_half_width, beta = side * system_.half_width,
                b0 = system_.base_distance;
-  // c1 a + c2 b, where c is n or t, of which one component is zero
-  const auto along_n = [](double c1, double a, double c2, double b) { return kLevel ? c2 * b : c1 * a; };
-  const auto along_t = [](double c1, double a, double c2, double b) { return kLevel ? c1 * a : c2 * b; };
-  // ... or the force per unit of N
-  const auto along_push = [&](double c1, double a, double c2, double b) {
-    return kOwnT ? along_n(c1, a, c2, b) : c1 * a + c2 * b;
-  };
-  const double depth_1 = f.sign * f.n1, depth_2 = f.sign * f.n2, slip_1 = -f.sign * f.t1(), slip_2 = -f.sign * f.t2();
+  // what the point's coordinates count for: one for the depth, the other one for the slip velocity
+  constexpr int kDepth = kLevel ? 1 : 0, kSlip = kLevel ? 0 : 1;
+  const Pair axes = f.sign * (kLevel ? Pair{-f.t1(), f.n2} : Pair{f.n1, -f.t2()});
   // forces per unit of N (sliding friction included) and of T, in the axes of the frame
   const double push_1 = kOwnT ? f.n1 : contact.force1, push_2 = kOwnT ? f.n2 : contact.force2;
   const double drag_1 = f.t1(), drag_2 = f.t2();
-  const double fast_x = system_.x.inverse_inertia, fast_y = system_.y.inverse_inertia,
-               fast_phi = system_.phi.inverse_inertia, slope = kTanh ? 1.0 / system_.regularization : 0.0;
+  // ... and turned into those of the world by a direction (c, s), of which the first component goes along it and the
+  // second one across, along (-s, c)
+  const Pair push_across{-push_2, push_2}, drag_across{-drag_2, drag_2};
+  const auto turned_push = [&](const Pair& direction) {
+    if (!kOwnT) return rounded(push_1 * direction) + push_across * swapped(direction);
+    return kLevel ? push_across * swapped(direction) : push_1 * direction;
+  };
+  const auto turned_drag = [&](const Pair& direction) {
+    return kLevel ? drag_1 * direction : drag_across * swapped(direction);
+  };
+  const Pair fast{system_.x.inverse_inertia, system_.y.inverse_inertia},
+      stiffness{system_.x.stiffness, system_.y.stiffness}, damping{system_.x.damping, system_.y.damping};
+  const double fast_phi = system_.phi.inverse_inertia, slope = kTanh ? 1.0 / system_.regularization : 0.0;
   // what k(n) and h(n) grow by per unit of cos^2 phi
   const double level = kLevel ? 1.0 : -1.0, stiffness_share = level * (system_.stiffness_y - system_.stiffness_x),
                damping_share = level * (system_.damping_y - system_.damping_x);
@@ -64,64 +71,81 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
   LeftFactors left[kMaxOrder + 1];
   RightFactors right[kMaxOrder + 1];
   double push_moment[kMaxOrder + 1], drag_moment_0 = 0.0;
-  double tanh_0 = 0.0, tanh_rate = 0.0, tanh_force = 0.0;  // tanh, d tanh/dV and dT/d tanh, all at power 0
-  const double x_0 = segment.x[0], y_0 = segment.y[0], c_0 = segment.cos_phi[0], s_0 = segment.sin_phi[0];
+  // tanh, d tanh/dV, dT/d tanh and dT/dN, all at power 0
+  double tanh_0 = 0.0, tanh_rate = 0.0, tanh_force = 0.0, tanh_ratio = 0.0;
+  const Pair place_0{segment.x[0], segment.y[0]}, direction_0{segment.cos_phi[0], segment.sin_phi[0]};
+  const double c_0 = direction_0[0], s_0 = direction_0[1];
+  const Quad directions_0{c_0, s_0, c_0, s_0}, places_0{place_0[0], place_0[0], place_0[1], place_0[1]};
   // forces per unit of N and of T along x and y, power 0
-  const double push_x = kEdge ? along_push(push_1, c_0, -push_2, s_0) : push_1,
-               push_y = kEdge ? along_push(push_1, s_0, push_2, c_0) : push_2,
-               drag_x = kEdge ? along_t(drag_1, c_0, -drag_2, s_0) : drag_1,
-               drag_y = kEdge ? along_t(drag_1, s_0, drag_2, c_0) : drag_2;
+  const Pair push_0 = kEdge ? turned_push(direction_0) : Pair{push_1, push_2},
+             drag_0 = kEdge ? turned_drag(direction_0) : Pair{drag_1, drag_2};
   // sums for the direction and the centre of the next power, and for the forces
   Quad turn_push{}, centre{};
 
-  // centre in body axes and point of an edge, point of a corner, of a power > 0 with these last terms
-  const auto centre_of = [&](double c, double s, double x, double y) {
-    if (!kTurns) return Pair{c_0 * x + s_0 * y, c_0 * y - s_0 * x};
-    const double along_c = centre[0] + c_0 * x + c * x_0, along_s = centre[1] + s_0 * x + s * x_0,
-                 across_c = centre[2] + c_0 * y + c * y_0, across_s = centre[3] + s_0 * y + s * y_0;
-    return Pair{along_c + across_s, across_c - along_s};
+  // centre in body axes, from the products c x, s x, c y, s y, and point of an edge, point of a corner, of a power > 0
+  // with these last terms
+  constexpr Pair kTurn{-1.0, 1.0};  // (a, b) swapped and times this is turned by a right angle
+  const auto turned_back = [&](const Quad& products) { return swapped(high(products)) - kTurn * low(products); };
+  const auto centre_of = [&](const Quad& directions, const Quad& places) {
+    return turned_back(kTurns ? centre + directions_0 * places + directions * places_0 : directions_0 * places);
   };
-  const auto edge_at = [&](double c, double s, const Pair& of) {
-    return kTurns ? Pair{l * c - of[0], -l * s - of[1]} : -of;
+  const auto edge_at = [&](const Pair& direction, const Pair& of) {
+    return kTurns ? Pair{l, -l} * direction - of : -of;
   };
-  const auto corner_at = [&](double c, double s, double x, double y) {
-    if (!kTurns) return Pair{x, y};
-    return Pair{x + beta * c + b0 * s, y + beta * s - b0 * c};
+  const auto corner_at = [&](const Pair& direction, const Pair& place) {
+    return kTurns ? place + beta * direction - (b0 * kTurn) * swapped(direction) : place;
   };
 
-  direction_[0] = Pair{c_0, s_0};
-  if (kEdge) centre_[0] = Pair{c_0 * x_0 + s_0 * y_0, c_0 * y_0 - s_0 * x_0};
-  point[0] = kEdge ? Pair{l * c_0 - centre_[0][0], -l * s_0 - centre_[0][1]}
-                   : Pair{x_0 + beta * c_0 + b0 * s_0, y_0 + beta * s_0 - b0 * c_0};
-  series.depth[0] = along_n(depth_1, point[0][0], depth_2, point[0][1]) + f.offset;
+  // d' and V per unit of c', s', velocities and angular velocity, power 0
+  const Pair by_c = axes * (kEdge ? Pair{l - place_0[0], -place_0[1]} : Pair{beta, -b0}),
+             by_s = axes * (kEdge ? Pair{-place_0[1], place_0[0] - l} : Pair{b0, beta}),
+             by_vx = axes * (kEdge ? Pair{-c_0, s_0} : Pair{1.0, 0.0}),
+             by_vy = axes * (kEdge ? Pair{-s_0, -c_0} : Pair{0.0, 1.0}), by_omega = c_0 * by_s - s_0 * by_c;
+
+  // of power k, and place and angle of the next one; powers 0 of place and angle from where the springs feel nothing
+  Pair direction_k = direction_0, velocity{segment.vx[0], segment.vy[0]};
+  Pair known{};  // what d' and V of power k are but for velocities of that power
+  Pair stretch{place_0[0] - system_.x.anchor, place_0[1] - system_.y.anchor}, place{segment.x[1], segment.y[1]};
+  double omega = segment.omega[0], twist = segment.phi[0] - system_.phi.anchor, angle = segment.phi[1];
+  direction_[0] = direction_0;
+  if (kEdge) centre_[0] = turned_back(directions_0 * places_0);
+  Pair point_k = kEdge ? Pair{l, -l} * direction_0 - centre_[0]
+                       : place_0 + beta * direction_0 - (b0 * kTurn) * swapped(direction_0);
+  double depth = axes[kDepth] * point_k[kDepth] + f.offset;
+  point[0] = point_k;
+  series.depth[0] = depth;
   for (int k = 0;; ++k) {
     // direction, point and depth of the next power
     const int n = k + 1;
-    const double omega = segment.omega[k], inverse = kInverse[n], next_inverse = kInverse[n + 1];
-    const double c = kTurns ? -(inverse * turn_push[1] + (inverse * s_0) * omega) : 0.0;
-    const double s = kTurns ? inverse * turn_push[0] + (inverse * c_0) * omega : 0.0;
-    direction_[n] = Pair{c, s};
-    segment.cos_phi[n] = c;
-    segment.sin_phi[n] = s;
-    if (kEdge) centre_[n] = centre_of(c, s, segment.x[n], segment.y[n]);
-    point[n] = kEdge ? edge_at(c, s, centre_[n]) : corner_at(c, s, segment.x[n], segment.y[n]);
-    series.depth[n] = along_n(depth_1, point[n][0], depth_2, point[n][1]);
+    const double inverse = kInverse[n], next_inverse = kInverse[n + 1], number = n;
+    Pair direction{};
+    if (kTurns) direction = (inverse * kTurn) * swapped(low(turn_push) + direction_0 * omega);
+    direction_[n] = direction;
+    segment.cos_phi[n] = direction[0];
+    segment.sin_phi[n] = direction[1];
+    const Quad directions{direction[0], direction[1], direction[0], direction[1]},
+        places{place[0], place[0], place[1], place[1]};
+    if (kEdge) centre_[n] = centre_of(directions, places);
+    const Pair point_n = kEdge ? edge_at(direction, centre_[n]) : corner_at(direction, place);
+    const double depth_n = axes[kDepth] * point_n[kDepth];
+    point[n] = point_n;
+    series.depth[n] = depth_n;
 
     // sums over what the powers before know
-    if (kEdge && kTurns) push_moment[k] = along_push(-push_1, point[k][1], push_2, point[k][0]);
-    const bool levers = kEdge && kOwnT && (kTurns || k == 0);
-    const double drag_moment = levers ? along_t(-drag_1, point[k][1], drag_2, point[k][0]) : 0.0;
-    if (k == 0) drag_moment_0 = kEdge ? drag_moment : drag_c_arm * c_0 + drag_s_arm * s_0;
+    Pair arms{};  // moments per unit of N and of T
+    if (kEdge && kOwnT) arms = kLevel ? Pair{push_2, -drag_1} * point_k : Pair{-push_1, drag_2} * swapped(point_k);
+    if (kEdge && !kOwnT) arms[0] = push_2 * point_k[0] - push_1 * point_k[1];
+    if (kEdge && kTurns) push_moment[k] = arms[0];
+    if (k == 0) drag_moment_0 = kEdge ? arms[1] : drag_c_arm * c_0 + drag_s_arm * s_0;
     turn_push = centre = Quad{};
     Quad moments{}, layer{};
     Pair face{};
     double moment = 0.0;
     if (kTurns) {
-      const double ck = segment.cos_phi[k], sk = segment.sin_phi[k];
-      left[k].next = Quad{c, s, c, s};
-      left[k].turn_push = Quad{c, s, ck, sk};
-      if (kOwnT) left[k].moment = Quad{ck, sk, kEdge ? push_moment[k] : 0.0, drag_moment};
-      if (kEdge) right[k].centre = Quad{segment.x[n], segment.x[n], segment.y[n], segment.y[n]};
+      left[k].next = directions;
+      right[k].centre = places;
+      left[k].turn_push = Quad{direction[0], direction[1], direction_k[0], direction_k[1]};
+      if (kOwnT) left[k].moment = Quad{direction_k[0], direction_k[1], arms[0], arms[1]};
     }
     if (kTanh) left[k].layer = Quad{};
     if (kVaries) left[k].face = Pair{};
@@ -137,42 +161,50 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       if (kTanh) layer += a.layer * b.layer;
       if (kVaries) face += a.face * b.face;
     };
-    int j = 1;  // two at a time: the loop itself takes a quarter of a turn
-    for (; j < k; j += 2) {
+    // two at a time: the loop itself takes a quarter of a turn; what has been found last, 1 on the right, comes last
+    int j = 2;
+    for (; j + 1 < k; j += 2) {
       add_products(j);
       add_products(j + 1);
     }
-    if (j == k) add_products(k);
+    if (j < k) add_products(j);
+    if (k > 1) add_products(k);
+    if (k > 0) add_products(1);
     if (kTurns) {
       turn_push += left[0].turn_push * Quad{omega, omega, 0.0, 0.0};
       if (kEdge) centre += left[0].next * right[k].centre;
     }
+    const Pair rate = known + omega * by_omega + velocity[0] * by_vx + velocity[1] * by_vy;
+    const double depth_rate = rate[kDepth], v = rate[kSlip];
+    if (kTurns) known = turn_push[0] * by_s - turn_push[1] * by_c;
+    if (kTurns && kEdge) known -= ((number + 1.0) * axes) * turned_back(centre);
 
-    // N, V and T of power k
-    double force_n = contact.stiffness * series.depth[k] + (contact.damping * n) * series.depth[n];
+    // N and T of power k
+    double force_n = rounded(contact.stiffness * depth) + contact.damping * depth_rate;
     if (kVaries) {
-      const double ck = segment.cos_phi[k];
-      right[k].face = Pair{ck, stiffness_share * series.depth[k] + (damping_share * n) * series.depth[n]};
+      const double ck = direction_k[0];
+      right[k].face = Pair{ck, rounded(stiffness_share * depth) + damping_share * depth_rate};
       if (k > 0) {
         const double square = face[0] + 2.0 * c_0 * ck;
         left[k].face = Pair{ck, square};
         force_n += face[1] + square * right[0].face[1];
       }
     }
-    const double v = along_t(n * slip_1, point[n][0], n * slip_2, point[n][1]);
     double force_t = kSticks ? 0.0 : contact.ratio * force_n;
     if (kTanh && k == 0) {
       tanh_0 = std::tanh(v * slope);
       const double sech2_0 = 1.0 - tanh_0 * tanh_0;
       tanh_rate = sech2_0 * slope;
       tanh_force = -system_.friction * force_n;
+      tanh_ratio = -system_.friction * tanh_0;
       force_t = tanh_force * tanh_0;
       right[0].layer = Quad{tanh_0, force_n, 0.0, 0.0};
     } else if (kTanh) {
-      const double tanh = (kInverse[k] * slope) * layer[2] + tanh_rate * v;
-      left[k].layer = Quad{tanh, tanh, -(layer[0] + 2.0 * tanh_0 * tanh), 0.0};
-      right[k].layer = Quad{tanh, force_n, k * v, 0.0};
-      force_t = -system_.friction * (layer[1] + force_n * tanh_0) + tanh_force * tanh;
+      const double tanh = rounded(tanh_rate * v) - (kInverse[k] * slope) * layer[2];
+      const double square = layer[0] + 2.0 * tanh_0 * tanh, slip_rate = (number - 1.0) * v;
+      left[k].layer = Quad{tanh, tanh, square, square};
+      right[k].layer = Quad{tanh, force_n, slip_rate, slip_rate};
+      force_t = rounded(tanh_force * tanh) - system_.friction * layer[1] + tanh_ratio * force_n;
     }
     series.normal_force[k] = force_n;
     series.slip_velocity[k] = v;
@@ -180,32 +212,18 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     if (k == segment.order && !goes_on(segment)) break;
 
     // forces of power k: of the axis itself, of what the powers before make of the contact, and of its N and T
-    const double dx = k == 0 ? x_0 - system_.x.anchor : segment.x[k];
-    const double dy = k == 0 ? y_0 - system_.y.anchor : segment.y[k];
-    const double weight = k == 0 ? system_.weight : 0.0;
-    double force_x = segment.drive_x[k] - system_.x.damping * segment.vx[k] - system_.x.stiffness * dx;
-    double force_y = segment.drive_y[k] - weight - system_.y.damping * segment.vy[k] - system_.y.stiffness * dy;
-    if (kEdge && kTurns) {
-      force_x += along_push(push_1, turn_push[2], -push_2, turn_push[3]);
-      force_y += along_push(push_1, turn_push[3], push_2, turn_push[2]);
-    }
-    if (kEdge && kTurns && kOwnT) {
-      force_x += along_t(drag_1, moments[0], -drag_2, moments[1]);
-      force_y += along_t(drag_1, moments[1], drag_2, moments[0]);
-    }
-    force_x += push_x * force_n;
-    force_y += push_y * force_n;
-    if (kTanh) {
-      force_x += drag_x * force_t;
-      force_y += drag_y * force_t;
-    }
+    Pair force{segment.drive_x[k], segment.drive_y[k]};
+    if (k == 0) force[1] -= system_.weight;
+    force = force - damping * velocity - stiffness * stretch;
+    if (kEdge && kTurns) force += turned_push(high(turn_push));
+    if (kEdge && kTurns && kOwnT) force += turned_drag(low(moments));
+    force += push_0 * force_n;
+    if (kTanh) force += drag_0 * force_t;
     double turn = 0.0;
     if (kTurns) {
-      const double dphi = k == 0 ? segment.phi[0] - system_.phi.anchor : segment.phi[k];
-      turn = segment.drive_phi[k] - system_.phi.damping * omega - system_.phi.stiffness * dphi;
+      turn = segment.drive_phi[k] - system_.phi.damping * omega - system_.phi.stiffness * twist;
       if (kEdge) {
-        turn += moment + moments[2] + push_moment[0] * force_n;
-        if (kOwnT) turn += moments[3];
+        turn += (kOwnT ? moments[2] + moments[3] : moment) + push_moment[0] * force_n;
       } else {
         turn += push_c_arm * (turn_push[2] + c_0 * force_n) + push_s_arm * (turn_push[3] + s_0 * force_n);
         if (kOwnT) turn += drag_c_arm * moments[0] + drag_s_arm * moments[1];
@@ -216,32 +234,38 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     // velocity of power n: with the T that leaves nothing of V'
     if (kSticks) {
       if (k == 0) {
-        contact.drag[0] = Pair{drag_x, drag_y};
+        contact.drag[0] = drag_0;
         contact.drag_moment[0] = drag_moment_0;
         set_up_holding();
       }
-      const double own_c = -next_inverse * turn_push[1], own_s = next_inverse * turn_push[0];
-      const Pair own =
-          kEdge ? edge_at(own_c, own_s, centre_of(own_c, own_s, 0.0, 0.0)) : corner_at(own_c, own_s, 0.0, 0.0);
-      const double own_rate = kTurns ? (n * (n + 1)) * along_t(slip_1, own[0], slip_2, own[1]) : 0.0;
-      const HoldingForces::Answer free{{}, fast_x * force_x, fast_y * force_y, fast_phi * turn};
-      const HoldingForces::Answer held = holding_.hold_motion_of_one(free, own_rate);
+      const Pair free_rate = fast * force;
+      const HoldingForces::Answer free{{}, free_rate[0], free_rate[1], fast_phi * turn};
+      const HoldingForces::Answer held = holding_.hold_motion_of_one(free, number * known[kSlip]);
       if (k == 0 && (!holding_.regular() || rounding_shows(free, held, segment))) return false;
       series.tangential_force[k] = force_t = held.force[0];
-      segment.vx[n] = inverse * held.x;
-      segment.vy[n] = inverse * held.y;
-      segment.omega[n] = inverse * held.phi;
+      velocity = inverse * Pair{held.x, held.y};
+      omega = inverse * held.phi;
     } else {
-      segment.vx[n] = (fast_x * inverse) * force_x;
-      segment.vy[n] = (fast_y * inverse) * force_y;
-      segment.omega[n] = (fast_phi * inverse) * turn;
+      velocity = (fast * inverse) * force;
+      omega = (fast_phi * inverse) * turn;
     }
-    // position of power n + 1
-    segment.x[n + 1] = segment.vx[n] * next_inverse;
-    segment.y[n + 1] = segment.vy[n] * next_inverse;
-    segment.phi[n + 1] = segment.omega[n] * next_inverse;
-    if (kTurns) right[k].turn_push = Quad{omega, omega, force_n, force_n};
+    if (kTurns) right[k].turn_push = Quad{segment.omega[k], segment.omega[k], force_n, force_n};
     if (kTurns && kOwnT) right[k].moment = Quad{force_t, force_t, force_n, force_t};
+
+    // place of power n + 1
+    stretch = place;
+    twist = angle;
+    place = velocity * next_inverse;
+    angle = omega * next_inverse;
+    segment.vx[n] = velocity[0];
+    segment.vy[n] = velocity[1];
+    segment.omega[n] = omega;
+    segment.x[n + 1] = place[0];
+    segment.y[n + 1] = place[1];
+    segment.phi[n + 1] = angle;
+    direction_k = direction;
+    point_k = point_n;
+    depth = depth_n;
   }
   known_trig_ = segment.order + 1;
   known_point_[contact.point] = segment.order + 1;
