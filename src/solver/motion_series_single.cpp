@@ -7,19 +7,21 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Powers as factors of products, each number as often as it is needed. A sum pairs left j with right k - j.
+/// Powers as factors of products, each number as often as it is needed. A sum pairs left j with right k - j. Where
+/// three numbers are needed the last one stands twice: with a constant in its place the compiler stores them one by
+/// one, and the next product waits for that.
 struct LeftFactors {
   Quad next;       ///< c, s, c, s of the next power
   Quad turn_push;  ///< c, s of the next power, c, s
   Quad moment;     ///< where T is a series of its own: c, s, and the moments per unit of N and of T
-  Quad layer;      ///< tanh law: tanh, tanh, tanh^2, -
+  Quad layer;      ///< tanh law: tanh, tanh, tanh^2, tanh^2
   Pair face;       ///< k(n) that changes: c, cos^2
 };
 struct RightFactors {
   Quad centre;     ///< x, x, y, y of the next power
   Quad turn_push;  ///< omega, omega, N, N
   Quad moment;     ///< where T is a series of its own: T, T, N, T
-  Quad layer;      ///< tanh law: tanh, N, V' of the power before, -
+  Quad layer;      ///< tanh law: tanh, N, V' of the power before, the same
   Pair face;       ///< k(n) that changes: c, what N grows by per unit of cos^2
 };
 
@@ -104,7 +106,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
 
   // of power k, and place and angle of the next one; powers 0 of place and angle from where the springs feel nothing
   Pair direction_k = direction_0, velocity{segment.vx[0], segment.vy[0]};
-  Pair known{};  // what d' and V of power k are but for velocities of that power
+  Pair known_rate{};  // what d' and V of power k are but for velocities of that power
   Pair stretch{place_0[0] - system_.x.anchor, place_0[1] - system_.y.anchor}, place{segment.x[1], segment.y[1]};
   double omega = segment.omega[0], twist = segment.phi[0] - system_.phi.anchor, angle = segment.phi[1];
   direction_[0] = direction_0;
@@ -174,10 +176,10 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       turn_push += left[0].turn_push * Quad{omega, omega, 0.0, 0.0};
       if (kEdge) centre += left[0].next * right[k].centre;
     }
-    const Pair rate = known + omega * by_omega + velocity[0] * by_vx + velocity[1] * by_vy;
+    const Pair rate = known_rate + omega * by_omega + velocity[0] * by_vx + velocity[1] * by_vy;
     const double depth_rate = rate[kDepth], v = rate[kSlip];
-    if (kTurns) known = turn_push[0] * by_s - turn_push[1] * by_c;
-    if (kTurns && kEdge) known -= ((number + 1.0) * axes) * turned_back(centre);
+    if (kTurns) known_rate = turn_push[0] * by_s - turn_push[1] * by_c;
+    if (kTurns && kEdge) known_rate -= ((number + 1.0) * axes) * turned_back(centre);
 
     // N and T of power k
     double force_n = rounded(contact.stiffness * depth) + contact.damping * depth_rate;
@@ -240,7 +242,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       }
       const Pair free_rate = fast * force;
       const HoldingForces::Answer free{{}, free_rate[0], free_rate[1], fast_phi * turn};
-      const HoldingForces::Answer held = holding_.hold_motion_of_one(free, number * known[kSlip]);
+      const HoldingForces::Answer held = holding_.hold_motion_of_one(free, number * known_rate[kSlip]);
       if (k == 0 && (!holding_.regular() || rounding_shows(free, held, segment))) return false;
       series.tangential_force[k] = force_t = held.force[0];
       velocity = inverse * Pair{held.x, held.y};
