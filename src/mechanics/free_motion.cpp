@@ -1,6 +1,6 @@
+// What a flight begins with: the constants of the closed form. (Its values at one time: free_motion_at.cpp.)
 #include "mechanics/free_motion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,210 +24,177 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace
 
-void FreeMotion::begin(const Axis& axis, double q, double v, double constant_force) {
-  axis_ = axis;
-  start_q_ = q;
-  if (!axis_.moves) return;
-  start_v_ = v;
-  constant_ = constant_force;
-  slope_ = 0.0;
-  exact_ = true;
-  sines_.clear();
-  p0_ = p1_ = p2_ = p3_ = 0.0;
-  driven_ = {};
-  driven_rate_ = own_rate_ = 0.0;
-  fading_ = {};
-  const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
-  decay_ = 0.5 * h / m;
-  // (a - w)(a + w) loses no digits near critical damping
-  pull_ = k / m;
-  frequency_ = std::sqrt(pull_);
-  square_ = (decay_ - frequency_) * (decay_ + frequency_);
-  root_ = std::sqrt(std::abs(square_));
+FreeMotion::FreeMotion(const System& system, std::size_t drive_count)
+    : system_(system), axes_{&system.x, &system.y, &system.phi} {
+  sines_.reserve(drive_count);
+  for (int i = 0; i < kAxes; ++i)
+    if (axes_[i]->moves) set_constants(i);
 }
 
-void FreeMotion::add(const DriveForm& form) {
-  if (!axis_.moves) return;
-  constant_ += form.constant;
-  slope_ += form.slope;
+void FreeMotion::set_constants(int i) {
+  const double m = axes_[i]->inertia, h = axes_[i]->damping, k = axes_[i]->stiffness;
+  Constants& c = constants_[i];
+  c.decay = 0.5 * h / m;
+  // (a - w)(a + w) loses no digits near critical damping
+  c.pull = k / m;
+  c.frequency = std::sqrt(c.pull);
+  c.square = (c.decay - c.frequency) * (c.decay + c.frequency);
+  c.root = std::sqrt(std::abs(c.square));
+  c.apart = c.root > kApart * c.decay;
+  // the slow rate without cancellation
+  c.fast = c.decay + c.root;
+  c.slow = c.square > 0.0 ? c.pull / c.fast : c.decay;
+  c.own_rate = c.square > 0.0 ? c.fast : c.frequency;
+  fastest_axis_ = std::max(fastest_axis_, c.own_rate);
+
+  pull_[i] = c.pull;
+  decay_[i] = c.decay;
+  fall_[i] = c.slow;
+  slope_rate_[i] = c.square > 0.0 ? c.fast : c.decay;
+  if (c.square < 0.0) {
+    half_root_[i] = 0.5 * c.root;
+    inverse_root_[i] = 1.0 / c.root;
+    largest_half_root_ = std::max(largest_half_root_, 0.5 * c.root);
+    any_underdamped_ = true;
+  } else if (c.square > 0.0) {
+    between_[i] = 2.0 * c.root;
+    inverse_between_[i] = 0.5 / c.root;
+    any_overdamped_ = true;
+  } else {
+    critical_[i] = 1.0;
+  }
+  if (!c.apart) {
+    near_[i] = 1.0;
+    near_most_[i] = c.decay > 0.0 ? 0.5 / c.decay : 0.0;
+    any_near_ = true;
+  } else if (c.square < 0.0) {
+    mode_rate_[i] = c.frequency;
+  } else {
+    modes_[i] = -1;
+    mode_rate_[i] = c.slow;
+    fast_mode_rate_[i] = c.fast;
+  }
+}
+
+void FreeMotion::begin(const State& state) {
+  start_q_ = Quad{state.x, state.y, state.phi, 0.0};
+  constant_ = {0.0, -system_.weight, 0.0};
+  slope_ = {};
+  axis_exact_.fill(true);
+  sines_.clear();
+  sine_count_ = {};
+  driven_rate_ = 0.0;
+  const double velocity[] = {state.vx, state.vy, state.omega};
+  for (int i = 0; i < kAxes; ++i) start_v_[i] = axes_[i]->moves ? velocity[i] : 0.0;
+}
+
+void FreeMotion::add(Direction direction, const DriveForm& form) {
+  const auto i = static_cast<int>(direction);
+  const Axis& axis = *axes_[i];
+  if (!axis.moves) return;
+  constant_[i] += form.constant;
+  slope_[i] += form.slope;
   if (form.amplitude == 0.0) return;
-  if (form.rate != 0.0) exact_ = false;
   // steady response: (k - m nu^2) and h nu act on sin and cos
   const double nu = form.frequency;
-  const double elastic = axis_.stiffness - axis_.inertia * nu * nu, viscous = axis_.damping * nu;
+  const double elastic = axis.stiffness - axis.inertia * nu * nu, viscous = axis.damping * nu;
   const double norm = elastic * elastic + viscous * viscous;
-  const double size = axis_.stiffness + axis_.inertia * nu * nu;
-  if (!(norm * kLargestGain * kLargestGain > size * size)) exact_ = false;
+  const double size = axis.stiffness + axis.inertia * nu * nu;
   const double s = form.amplitude * form.cos_phase, c = form.amplitude * form.sin_phase;
-  sines_.push_back({nu, (elastic * s + viscous * c) / norm, (elastic * c - viscous * s) / norm});
+  const double sin_amplitude = (elastic * s + viscous * c) / norm, cos_amplitude = (elastic * c - viscous * s) / norm;
   // a response far larger than the motion cancels against the start
-  if (!(length(sines_.back().sin_amplitude, sines_.back().cos_amplitude) < kLargestGain)) exact_ = false;
+  axis_exact_[i] = axis_exact_[i] && form.rate == 0.0 && norm * kLargestGain * kLargestGain > size * size &&
+                   length(sin_amplitude, cos_amplitude) < kLargestGain;
+  if (sine_count_[i] == sines_.size()) sines_.emplace_back();
+  Sines& sines = sines_[sine_count_[i]++];
+  sines.frequency[i] = nu;
+  sines.half_frequency[i] = 0.5 * nu;
+  sines.sin_amplitude[i] = sin_amplitude;
+  sines.cos_amplitude[i] = cos_amplitude;
+  driven_rate_ = std::max(driven_rate_, nu);
 }
 
-void FreeMotion::settle(Waves& waves) {
-  if (!axis_.moves) return;
-  own_rate_ = square_ > 0.0 ? decay_ + root_ : frequency_;
-  fading_[0] = {own_rate_, std::numeric_limits<double>::infinity()};
-  for (const Sine& sine : sines_) driven_rate_ = std::max(driven_rate_, sine.frequency);
-  if (!exact_) return;
-  const double m = axis_.inertia, h = axis_.damping, k = axis_.stiffness;
+void FreeMotion::settle() {
+  c_factor_ = s_factor_ = p1_ = p2_ = p3_ = Quad{};
+  mode_ = fast_mode_ = least_rate_ = least_second_ = least_third_ = Quad{};
+  fading_ = {};
+  series_rate_ = std::max(fastest_axis_, driven_rate_);
+  for (int i = 0; i < kAxes; ++i)
+    if (axes_[i]->moves) settle_axis(i);
+  exact_ = axis_exact_[kX] && axis_exact_[kY] && axis_exact_[kPhi];
+}
+
+void FreeMotion::settle_axis(int i) {
+  const double m = axes_[i]->inertia, h = axes_[i]->damping, k = axes_[i]->stiffness;
+  const double constant = constant_[i], slope = slope_[i];
+  bool exact = axis_exact_[i];
+  double p0 = 0.0, p1 = 0.0, p2 = 0.0, p3 = 0.0;
   if (k > 0.0) {
-    p1_ = slope_ / k;
-    p0_ = axis_.anchor + (constant_ - h * p1_) / k;
+    p1 = slope / k;
+    p0 = axes_[i]->anchor + (constant - h * p1) / k;
     // a soft spring's far equilibrium: the long way to it cancels against the start
-    if (std::abs(p0_ - start_q_) > kLargestGain || std::abs(p1_) > kLargestGain) exact_ = false;
+    exact = exact && !(std::abs(p0 - start_q_[i]) > kLargestGain || std::abs(p1) > kLargestGain);
   } else if (h > 0.0) {
-    p2_ = 0.5 * slope_ / h;
-    p1_ = (constant_ - 2.0 * m * p2_) / h;
-    if ((constant_ != 0.0 || slope_ != 0.0) && decay_ < 1.0 / kLargestGain) exact_ = false;
-    if (std::abs(p1_) > kLargestGain) exact_ = false;
+    p2 = 0.5 * slope / h;
+    p1 = (constant - 2.0 * m * p2) / h;
+    const bool pulled = constant != 0.0 || slope != 0.0;
+    exact = exact && !((pulled && constants_[i].decay < 1.0 / kLargestGain) || std::abs(p1) > kLargestGain);
   } else {
-    p2_ = 0.5 * constant_ / m;
-    p3_ = slope_ / (6.0 * m);
+    p2 = 0.5 * constant / m;
+    p3 = slope / (6.0 * m);
   }
-  c_factor_ = start_q_ - p0_;
-  s_factor_ = start_v_ - p1_;
-  for (const Sine& sine : sines_) {
-    c_factor_ -= sine.cos_amplitude;
-    s_factor_ -= sine.frequency * sine.sin_amplitude;
-  }
-  if (square_ < 0.0) oscillation_ = waves.add_oscillation(root_);
-  for (Sine& sine : sines_) sine.wave = waves.add_oscillation(sine.frequency);
-  // overdamped: the slow rate without cancellation, and how far apart the two are
-  fall_ = waves.add_decay(square_ > 0.0 ? slow_rate() : decay_);
-  if (square_ > 0.0) ratio_ = waves.add_decay(2.0 * root_);
-  find_modes();
-}
-
-double FreeMotion::slow_rate() const { return pull_ / (decay_ + root_); }
-
-/// All in closed form. Forces of a stiff or light axis are large and cancel: their rounding, over the time in which it
-/// moves once its fast motion has decayed, would be more than the bounds know of.
-FreeMotion::Outlook FreeMotion::moving_outlook(double t, double end, const Waves::Values& waves) const {
-  Outlook outlook{2.0 * p2_ + 6.0 * p3_ * t, driven_};
-  const double p2 = std::abs(p2_), p3 = std::abs(p3_);
-  outlook.bounds.rate += std::abs(p1_) + (2.0 * p2 + 3.0 * p3 * end) * end;
-  outlook.bounds.second += 2.0 * p2 + 6.0 * p3 * end;
-  outlook.bounds.third += 6.0 * p3;
-  for (const Sine& sine : sines_)
-    outlook.acceleration -= sine.frequency * sine.frequency *
-                            (sine.sin_amplitude * waves.sin(sine.wave) + sine.cos_amplitude * waves.cos(sine.wave));
-  if (apart_ && square_ > 0.0)
-    add_modes(waves, outlook);
-  else
-    add_free(t, waves, outlook);
-  return outlook;
-}
-
-/// Two exponentials, each of which falls: what bounds it at one time bounds it ever after.
-void FreeMotion::add_modes(const Waves::Values& waves, Outlook& outlook) const {
-  const double slow = slow_rate(), fast = decay_ + root_;
-  const double slow_left = slow_ * waves.left[fall_], fast_left = fast_ * waves.left[fall_] * waves.left[ratio_];
-  outlook.acceleration += slow_left * slow * slow + fast_left * fast * fast;
-  outlook.bounds.add(std::abs(slow_left), slow);
-  outlook.bounds.add(std::abs(fast_left), fast);
-}
-
-/// c C + s S, with C and S as homogeneous() has them, but C itself: what is left of it keeps its digits.
-void FreeMotion::add_free(double t, const Waves::Values& waves, Outlook& outlook) const {
-  const double left = waves.left[fall_];
-  double slope = 0.0, sine = 0.0;  // S' and S
-  if (square_ < 0.0) {
-    sine = left * waves.sin(oscillation_) / root_;
-    slope = left * waves.cos(oscillation_) - decay_ * sine;
-  } else if (square_ > 0.0) {
-    sine = left * -waves.change[ratio_] / (2.0 * root_);
-    slope = left - (decay_ + root_) * sine;
-  } else {
-    sine = t * left;
-    slope = left - decay_ * sine;
-  }
-  const double first = s_factor_ * slope - c_factor_ * pull_ * sine;
-  const double q = c_factor_ * (slope + 2.0 * decay_ * sine) + s_factor_ * sine;
-  const double second = -pull_ * q - 2.0 * decay_ * first;
-  outlook.acceleration += second;
-  Bounds& bounds = outlook.bounds;
-  if (apart_) {
-    bounds.add(swing_ * left, frequency_);
+  axis_exact_[i] = exact;
+  if (!exact) {
+    fading_[0].rate[i] = constants_[i].own_rate;
+    fading_[0].until[i] = std::numeric_limits<double>::infinity();
     return;
   }
-  // derivative n after a time s: exp(-a s) (q_n cosh(r s) + (q_n+1 + a q_n) sinh(r s)/r), the last below 1/2a
-  const double third = -pull_ * first - 2.0 * decay_ * second, fourth = -pull_ * second - 2.0 * decay_ * third;
-  const double most = decay_ > 0.0 ? 0.5 / decay_ : 0.0;
-  bounds.rate += std::abs(first) + std::abs(second + decay_ * first) * most;
-  bounds.second += std::abs(second) + std::abs(third + decay_ * second) * most;
-  bounds.third += std::abs(third) + std::abs(fourth + decay_ * third) * most;
-}
-
-/// Change of the particular solution since t = 0.
-void FreeMotion::add_particular(double t, const Waves::Values& waves, double& q, double& v) const {
-  q += t * (p1_ + t * (p2_ + t * p3_));
-  v += t * (2.0 * p2_ + t * 3.0 * p3_);
-  for (const Sine& sine : sines_) {
-    const double half_s = waves.half_sin[sine.wave], half_c = waves.half_cos[sine.wave];
-    const double s = 2.0 * half_s * half_c, c_change = -2.0 * half_s * half_s;
-    q += sine.sin_amplitude * s + sine.cos_amplitude * c_change;
-    v += sine.frequency * (sine.sin_amplitude * c_change - sine.cos_amplitude * s);
+  double c_factor = start_q_[i] - p0, s_factor = start_v_[i] - p1;
+  double rate = std::abs(p1), second = 2.0 * std::abs(p2), third = 6.0 * std::abs(p3);
+  for (std::size_t n = 0; n < sine_count_[i]; ++n) {
+    const Sines& sines = sines_[n];
+    const double nu = sines.frequency[i], s = sines.sin_amplitude[i], c = sines.cos_amplitude[i];
+    c_factor -= c;
+    s_factor -= nu * s;
+    const double amplitude = length(s, c);
+    rate += amplitude * nu;
+    second += amplitude * nu * nu;
+    third += amplitude * nu * nu * nu;
   }
-}
-
-/// C - 1 and S: S solves the free equation with S(0) = 0, S'(0) = 1; C = S' + 2a S has C(0) = 1, C'(0) = 0.
-void FreeMotion::homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const {
-  const double fall = waves.change[fall_], envelope = waves.left[fall_];
-  if (square_ < 0.0) {
-    const double half_s = waves.half_sin[oscillation_], half_c = waves.half_cos[oscillation_];
-    s = envelope * 2.0 * half_s * half_c / root_;
-    c_change = -2.0 * envelope * half_s * half_s + fall + decay_ * s;
-  } else if (square_ > 0.0) {
-    // rates a -+ root: the slow one, and their ratio
-    s = envelope * -waves.change[ratio_] / (2.0 * root_);
-    c_change = fall + slow_rate() * s;
-  } else {
-    s = t * envelope;
-    c_change = fall + decay_ * s;
-  }
+  p1_[i] = p1;
+  p2_[i] = p2;
+  p3_[i] = p3;
+  c_factor_[i] = c_factor;
+  s_factor_[i] = s_factor;
+  least_rate_[i] = rate;
+  least_second_[i] = second;
+  least_third_[i] = third;
+  find_modes(i, c_factor, s_factor);
 }
 
 /// Amplitudes of the modes, and when they have decayed.
-void FreeMotion::find_modes() {
-  for (const Sine& sine : sines_) driven_.add(length(sine.sin_amplitude, sine.cos_amplitude), sine.frequency);
-  const double c = c_factor_, s = s_factor_, slow = square_ > 0.0 ? slow_rate() : decay_;
-  apart_ = root_ > kApart * decay_;
-  if (!apart_) {
+void FreeMotion::find_modes(int i, double c, double s) {
+  const auto& [pull, frequency, decay, square, root, slow, fast, own_rate, apart] = constants_[i];
+  if (!apart) {
     // t exp(-slow t) falls below exp(-slow t / 2) / slow
-    if (slow > 0.0) fading_[0] = fading(std::abs(c) + std::abs(s + decay_ * c) / slow, own_rate_, 0.5 * slow);
-  } else if (square_ < 0.0) {
-    swing_ = length(c, (s + decay_ * c) / root_);
-    fading_[0] = fading(swing_, own_rate_, decay_);
+    fading_[0].set(i, own_rate, slow > 0.0 ? std::abs(c) + std::abs(s + decay * c) / slow : 0.0, 0.5 * slow);
+  } else if (square < 0.0) {
+    mode_[i] = length(c, (s + decay * c) / root);
+    fading_[0].set(i, own_rate, mode_[i], decay);
   } else {
-    slow_ = (c * (decay_ + root_) + s) / (2.0 * root_);
-    fast_ = -(c * slow + s) / (2.0 * root_);
-    fading_ = {fading(std::abs(fast_), own_rate_, own_rate_), fading(std::abs(slow_), slow, slow)};
+    mode_[i] = (c * fast + s) / (2.0 * root);
+    fast_mode_[i] = -(c * slow + s) / (2.0 * root);
+    fading_[0].set(i, fast, std::abs(fast_mode_[i]), fast);
+    fading_[1].set(i, slow, std::abs(mode_[i]), slow);
   }
 }
 
-FreeMotion::Fading FreeMotion::fading(double amplitude, double rate, double decay) {
-  const double velocity = amplitude * rate, third = velocity * rate * rate;
+void FreeMotion::Fading::set(int i, double its_rate, double amplitude, double decay) {
+  const double velocity = amplitude * its_rate, third = velocity * its_rate * its_rate;
   const double excess = std::max({velocity / kNoVelocity, third / kNoThird, 1.0});
   constexpr double kLn2 = 0.6931471805599453;
-  return {rate, decay > 0.0 ? kLn2 * rough_log2(excess) / decay : std::numeric_limits<double>::infinity()};
-}
-
-double FreeMotion::moving_rate(double t) const {
-  double rate = driven_rate_;
-  for (const Fading& part : fading_)
-    if (t < part.until) rate = std::max(rate, part.rate);
-  return rate;
-}
-
-/// Position and velocity of an axis that moves.
-void FreeMotion::move(double t, const Waves::Values& waves, double& q, double& v) const {
-  // all as changes since the start: what is far larger than the motion cancels in them
-  double c_change = 0.0, s = 0.0;
-  homogeneous(t, waves, c_change, s);
-  q = start_q_ + c_factor_ * c_change + s_factor_ * s;
-  v = start_v_ - c_factor_ * pull_ * s + s_factor_ * (c_change - 2.0 * decay_ * s);
-  add_particular(t, waves, q, v);
+  rate[i] = its_rate;
+  until[i] = decay > 0.0 ? kLn2 * rough_log2(excess) / decay : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace vibratory_alignment

@@ -1,6 +1,7 @@
-// Closed-form motion of one gripper axis without contact (MODEL.md "Free motion"):
+// Closed-form motion of the part without contact (MODEL.md "Free motion"), every axis by itself:
 //     m q'' + h q' + k (q - anchor) = constant + slope t + sum of amplitude_i sin(nu_i t + phase_i)
-// for under-, critically and over-damped axes, k = 0 and h = 0 included.
+// for under-, critically and overdamped axes, k = 0 and h = 0 included. All axes are worked out at once, as lanes of a
+// Quad, by the same operations: one that does not move costs nothing, and none has digits that depend on another.
 #pragma once
 
 #include <algorithm>
@@ -8,97 +9,120 @@
 #include <vector>
 
 #include "mechanics/drive.h"
+#include "mechanics/quad.h"
 #include "mechanics/system.h"
-#include "mechanics/waves.h"
 
 namespace vibratory_alignment {
 
 class FreeMotion {
  public:
-  /// Room for `drive_count` drives; nothing is allocated later.
-  explicit FreeMotion(std::size_t drive_count = 0) { sines_.reserve(drive_count); }
+  /// Lanes of the axes; what is in the fourth stands still.
+  static constexpr int kX = 0, kY = 1, kPhi = 2, kAxes = 3;
 
-  /// Begins a flight at t = 0 with position q and velocity v. Add the drives next, then call settle().
-  void begin(const Axis& axis, double q, double v, double constant_force);
-  void add(const DriveForm& form);
-  /// Fixes the constants of the motion and adds what it is made of to `waves`. After it, exact() tells whether the
-  /// closed form holds to roundoff: it does not during a chirp and where two of its terms cancel (a nearly undamped
-  /// axis driven near resonance, a nearly vanishing stiffness); the power series of the segment is then as exact.
-  void settle(Waves& waves);
+  /// Of a system that outlives it, of which only anchors may change, from the next flight on. Room for `drive_count`
+  /// drives; nothing is allocated later.
+  FreeMotion(const System& system, std::size_t drive_count);
+
+  /// Begins a flight at t = 0. Add the drives next, then call settle().
+  void begin(const State& state);
+  void add(Direction direction, const DriveForm& form);
+  /// Fixes the constants of the motion. After it, exact() tells whether the closed form holds to roundoff on all axes:
+  /// it does not during a chirp and where two of its terms cancel (a nearly undamped axis driven near resonance, a
+  /// nearly vanishing stiffness); the power series of the segment is then as exact.
+  void settle();
   bool exact() const { return exact_; }
 
-  /// Bounds on the absolute values of q', q'', q'''.
-  struct Bounds {
-    double rate = 0.0, second = 0.0, third = 0.0;
-
-    /// Adds those of an oscillation, or of a decay at this rate.
-    void add(double amplitude, double frequency) {
-      rate += amplitude * frequency;
-      second += amplitude * frequency * frequency;
-      third += amplitude * frequency * frequency * frequency;
-    }
-  };
-
-  /// The acceleration at time t after begin(), and bounds from then until `end`, from the waves at time t.
-  struct Outlook {
-    double acceleration = 0.0;
-    Bounds bounds;
-  };
-  Outlook outlook(double t, double end, const Waves::Values& waves) const {
-    return axis_.moves ? moving_outlook(t, end, waves) : Outlook{};
-  }
-
   /// Fastest rate of the motion from time t on, rad per unit of time: of all that has not decayed.
-  double rate(double t) const { return axis_.moves ? moving_rate(t) : 0.0; }
-
-  /// Fastest rate of the equation of motion, which a power series has to follow also where no such motion is left.
-  double series_rate() const { return std::max(own_rate_, driven_rate_); }
-
-  /// Position and velocity at time t >= 0 after begin(), from the waves at that time.
-  void at(double t, const Waves::Values& waves, double& q, double& v) const {
-    q = start_q_;
-    v = 0.0;
-    if (axis_.moves) move(t, waves, q, v);
+  double rate(double t) const {
+    double rate = driven_rate_;
+    for (const Fading& part : fading_)
+      for (int i = 0; i < kAxes; ++i)
+        if (t < part.until[i]) rate = std::max(rate, part.rate[i]);
+    return rate;
   }
+
+  /// Fastest rate of the equations of motion, which a power series has to follow also where no such motion is left.
+  double series_rate() const { return series_rate_; }
+
+  /// Position and velocity at time t >= 0 after begin(). Coordinates without exact closed form are left as they are in
+  /// `state`.
+  void at(double t, State& state) const { evaluate(t, t, state, nullptr); }
+
+  /// The accelerations at a time, and bounds on the absolute values of q', q'', q''' from then on.
+  struct Outlook {
+    Quad acceleration{}, rate{}, second{}, third{};
+  };
+  /// The same, and the outlook from time t with bounds until `end`, of an exact motion.
+  void at(double t, double end, State& state, Outlook& outlook) const { evaluate(t, end, state, &outlook); }
 
  private:
-  /// The response to one drive.
-  struct Sine {
-    double frequency, sin_amplitude, cos_amplitude;
-    int wave = 0;
+  /// What does not change from flight to flight of an axis.
+  struct Constants {
+    double pull = 0.0, frequency = 0.0;            ///< k/m and its root
+    double decay = 0.0, square = 0.0, root = 0.0;  ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
+    double slow = 0.0, fast = 0.0;                 ///< rates of the two exponentials of an overdamped axis
+    double own_rate = 0.0;                         ///< its fastest rate
+    bool apart = false;                            ///< far enough from critical damping to be bounded mode by mode
   };
-
-  void move(double t, const Waves::Values& waves, double& q, double& v) const;
-  Outlook moving_outlook(double t, double end, const Waves::Values& waves) const;
-  double moving_rate(double t) const;
-  double slow_rate() const;
-  void find_modes();
-  /// A part of the motion, at most amplitude exp(-decay t): its rate, and until when, roughly, it counts.
+  /// The response to one drive of each axis.
+  struct Sines {
+    Quad frequency{}, half_frequency{}, sin_amplitude{}, cos_amplitude{};
+  };
+  /// Parts of the motion, at most amplitude exp(-decay t): their rates, and until when, roughly, they count.
   struct Fading {
-    double rate = 0.0, until = 0.0;
+    Quad rate{}, until{};
+    void set(int axis, double its_rate, double amplitude, double decay);
   };
-  static Fading fading(double amplitude, double rate, double decay);
-  void add_modes(const Waves::Values& waves, Outlook& outlook) const;
-  void add_free(double t, const Waves::Values& waves, Outlook& outlook) const;
-  void homogeneous(double t, const Waves::Values& waves, double& c_change, double& s) const;
-  void add_particular(double t, const Waves::Values& waves, double& q, double& v) const;
+  /// The axes' own motion: C - 1 and S, where S solves the free equation with S(0) = 0, S'(0) = 1 and C = S' + 2a S has
+  /// C(0) = 1, C'(0) = 0; and what they are made of.
+  struct Own {
+    Quad c_change, s;
+    Quad left, left_between{};  ///< exp(-fall t), exp(-between t)
+    Quad cosine;                ///< cos(root t) of an underdamped axis, else 1
+  };
+  struct Motion {
+    Quad q, v, driven_acceleration;
+  };
 
-  Axis axis_;
-  double start_q_ = 0.0, start_v_ = 0.0;
-  double constant_ = 0.0, slope_ = 0.0;
+  void set_constants(int axis);
+  void settle_axis(int axis);
+  void find_modes(int axis, double c_factor, double s_factor);
+  void own_at(double t, Own& own) const;
+  void move(double t, const Own& own, Motion& motion) const;
+  void look(double end, const Own& own, const Motion& motion, Outlook& outlook) const;
+  void put(const Motion& motion, State& state) const;
+  void evaluate(double t, double end, State& state, Outlook* outlook) const;
+
+  // of the axes; lanes are 0 where an axis does not move or is not of that kind
+  const System& system_;
+  std::array<const Axis*, kAxes> axes_;
+  std::array<Constants, kAxes> constants_;
+  Quad pull_{}, decay_{};
+  Quad half_root_{}, inverse_root_{};    ///< underdamped: root/2, 1/root
+  Quad between_{}, inverse_between_{};   ///< overdamped: 2 root, how far apart its rates are
+  Quad critical_{};                      ///< critically damped: 1
+  Quad fall_{}, slope_rate_{};           ///< overdamped: slow and fast; else decay
+  QuadMask modes_{};                     ///< overdamped, apart
+  Quad mode_rate_{}, fast_mode_rate_{};  ///< apart: frequency, or slow and fast
+  Quad near_{}, near_most_{};            ///< not apart: 1, 1/(2 decay)
+  double largest_half_root_ = 0.0, fastest_axis_ = 0.0;
+  bool any_underdamped_ = false, any_overdamped_ = false, any_near_ = false;
+
+  // of the flight
   bool exact_ = true;
-  double pull_ = 0.0, frequency_ = 0.0;               ///< k/m and its root
-  double decay_ = 0.0, square_ = 0.0, root_ = 0.0;    ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
-  double p0_ = 0.0, p1_ = 0.0, p2_ = 0.0, p3_ = 0.0;  ///< polynomial part of the particular solution
-  bool apart_ = false;                                ///< far enough from critical damping to be bounded mode by mode
-  double slow_ = 0.0, fast_ = 0.0;                    ///< amplitudes of the two exponentials of an overdamped axis
-  double swing_ = 0.0;                                ///< amplitude of the oscillation of an underdamped one
-  Bounds driven_;                                     ///< of the response to the drives
-  double own_rate_ = 0.0, driven_rate_ = 0.0;         ///< fastest rates of the axis itself and of its drives
-  std::array<Fading, 2> fading_;                      ///< of its own motion
-  double c_factor_ = 0.0, s_factor_ = 0.0;
-  int oscillation_ = 0, fall_ = 0, ratio_ = 0;  ///< places of its own oscillation and decays among the waves
-  std::vector<Sine> sines_;
+  std::array<bool, kAxes> axis_exact_{};
+  std::array<double, kAxes> constant_{}, slope_{};  ///< forces
+  Quad start_q_{}, start_v_{};
+  Quad c_factor_{}, s_factor_{};
+  Quad p1_{}, p2_{}, p3_{};                             ///< polynomial part of the particular solution, but for p0
+  Quad mode_{}, fast_mode_{};                           ///< amplitudes of the modes
+  Quad least_rate_{}, least_second_{}, least_third_{};  ///< bounds on what neither falls nor grows
+  std::array<Fading, 2> fading_;                        ///< of the axes' own motion
+  std::vector<Sines> sines_;
+  std::array<std::size_t, kAxes> sine_count_{};
+  double driven_rate_ = 0.0, series_rate_ = 0.0;  ///< fastest of the drives; of drives and axes
 };
+
+static_assert(alignof(FreeMotion) == alignof(Quad));
 
 }  // namespace vibratory_alignment

@@ -23,11 +23,12 @@ struct TiltSeries {
 };
 template <typename Number>
 VIBRATORY_ALIGNMENT_INLINE TiltSeries<Number> small_tilt_series(const Number& z) {
-  return {z * z *
-              (1.0 / 24 -
-               z * (1.0 / 720 - z * (1.0 / 40320 - z * (1.0 / 3628800 - z * (1.0 / 479001600 - z / 87178291200))))),
-          z * (1.0 / 6 - z * (1.0 / 120 -
-                              z * (1.0 / 5040 - z * (1.0 / 362880 - z * (1.0 / 39916800 - z * (1.0 / 6227020800))))))};
+  // in pairs: a product need not wait for all before it
+  const Number z2 = z * z;
+  return {z2 * ((1.0 / 24 - z * (1.0 / 720)) +
+                z2 * ((1.0 / 40320 - z * (1.0 / 3628800)) + z2 * (1.0 / 479001600 - z * (1.0 / 87178291200)))),
+          z * ((1.0 / 6 - z * (1.0 / 120)) +
+               z2 * ((1.0 / 5040 - z * (1.0 / 362880)) + z2 * (1.0 / 39916800 - z * (1.0 / 6227020800))))};
 }
 
 /// cos phi and sin phi, even and odd to the last bit.

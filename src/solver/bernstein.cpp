@@ -107,17 +107,24 @@ Range range_of(const BernsteinForm& form) {
 }
 
 int sign_changes(const BernsteinForm& form) {
-  std::uint64_t signs = 0, after_zeros = 0;
-  int count = 0;
+  std::uint64_t negative = 0, zero = 0;
   for (int j = 0; j <= form.degree; ++j) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &form.b[j], sizeof bits);
-    if (form.b[j] == 0.0) continue;
-    signs |= (bits >> 63) << count;
-    after_zeros |= std::uint64_t{1} << count++;
+    negative |= (bits >> 63) << j;
+    zero |= std::uint64_t{form.b[j] == 0.0} << j;
   }
-  // where the sign of one and the next one differ
-  return __builtin_popcountll((signs ^ (signs >> 1)) & (after_zeros >> 1));
+  // those at the start count for nothing, others have the sign of what is before them
+  int count = form.degree + 1;
+  for (; (zero & 1) != 0; zero >>= 1, --count) negative >>= 1;
+  for (; zero != 0; zero &= zero - 1) {
+    const std::uint64_t it = zero & -zero;
+    negative = (negative & ~it) | ((negative << 1) & it);
+  }
+  // where the sign of one and the next one differ: mostly nowhere, or once
+  const std::uint64_t changes = count > 0 ? (negative ^ (negative >> 1)) & ((std::uint64_t{1} << (count - 1)) - 1) : 0;
+  if ((changes & (changes - 1)) == 0) return changes == 0 ? 0 : 1;
+  return __builtin_popcountll(changes);
 }
 
 double zero_of_coefficients(const BernsteinForm& form) {

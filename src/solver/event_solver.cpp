@@ -135,7 +135,7 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
       series_(system_),
       reach_(system_, tolerance_, force_tolerance(tolerance)),
       friction_(system_, tolerance_),
-      flight_(excitations.size()) {
+      flight_(system_, excitations.size()) {
   if (method_ != ContactMethod::series) {
     collocation();  // made now, not in the first step
     implicit_.emplace(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance));
@@ -264,7 +264,7 @@ void EventSolver::begin_segment(bool contact) {
   // a flight without end begins anew now and then: its phases are exact at the start and rounded after it
   const double flown = in_flight_ ? now_ - flight_.start() : 0.0;
   const bool long_ago = in_flight_ && flown * flight_.rate(flown) > kLongestFlight;
-  if (!in_flight_ || long_ago) flight_.begin(system_, state_, forms_, now_);
+  if (!in_flight_ || long_ago) flight_.begin(state_, forms_, now_);
   in_flight_ = true;
   segment_.flight_time = now_ - flight_.start();
 }
@@ -437,13 +437,17 @@ State state_at(const Segment& segment, double t) {
     segment.flight->at(segment.flight_time + t, state);
     return state;
   }
-  // Horner's rule on all six at once: none waits for another
-  int k = segment.order;
-  State q{segment.x[k], segment.y[k], segment.phi[k], segment.vx[k], segment.vy[k], segment.omega[k]};
-  while (--k >= 0)
-    q = {q.x * t + segment.x[k],   q.y * t + segment.y[k],   q.phi * t + segment.phi[k],
-         q.vx * t + segment.vx[k], q.vy * t + segment.vy[k], q.omega * t + segment.omega[k]};
-  return q;
+  State end;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    // Horner's rule on all six at once: none waits for another
+    int k = segment.order;
+    State q{segment.x[k], segment.y[k], segment.phi[k], segment.vx[k], segment.vy[k], segment.omega[k]};
+    while (--k >= 0)
+      q = {q.x * t + segment.x[k],   q.y * t + segment.y[k],   q.phi * t + segment.phi[k],
+           q.vx * t + segment.vx[k], q.vy * t + segment.vy[k], q.omega * t + segment.omega[k]};
+    end = q;
+  });
+  return end;
 }
 
 }  // namespace vibratory_alignment

@@ -87,7 +87,7 @@ class Search {
     double longest_leap = 0.0;
     const auto look_from = [&](double now) {
       longest_leap = std::min(longest - outlook.time, kLongestLeap / flight_.rate(now));
-      motion = flight_.motion_at(now, now + longest_leap);
+      flight_.motion_at(now, now + longest_leap, motion);
     };
     look_from(t_);
     motion.state = outlook.end = state;
@@ -227,7 +227,8 @@ class Search {
     double s = estimate;
     if (!find_crossing(nearest.site, face, crossing, view.longest(), outlook.time, s)) return false;
     const double time = outlook.time + s;
-    const Flight::Motion motion = flight_.motion_at(t_ + time, t_ + time);
+    Flight::Motion motion;
+    flight_.motion_at(t_ + time, t_ + time, motion);
     const FlightView back = view.back_from(motion, s);
     const PointMotion point = back.point(nearest.site);
     const double clear = kClear * (system_.half_width + system_.base_distance + system_.slot_half_width);

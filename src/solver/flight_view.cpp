@@ -14,39 +14,37 @@ FlightView::FlightView(const System& system, const Flight::Motion& motion, doubl
       state_(motion.state),
       longest_(longest),
       tilt_(tilt_of(state_.phi)),
-      x_(motion.x),
-      y_(motion.y),
-      phi_(motion.phi),
-      edge_speed_(x_.bounds.rate + y_.bounds.rate),
+      outlook_(motion.outlook),
+      edge_speed_(sum_of(outlook_.rate)),
       corner_speed_(edge_speed_) {
   if (!system_.phi.moves) return;
   // an edge goes round the mass centre as seen from the part, which moves on meanwhile
   const double away = system_.slot_half_width + std::abs(state_.x) + std::abs(state_.y) + edge_speed_ * longest_;
-  corner_speed_ += phi_.bounds.rate * (system_.half_width + system_.base_distance);
-  edge_speed_ += phi_.bounds.rate * away;
+  corner_speed_ += turning(outlook_.rate) * (system_.half_width + system_.base_distance);
+  edge_speed_ += turning(outlook_.rate) * away;
 }
 
-FlightView FlightView::back_from(Flight::Motion motion, double longest) const {
-  motion.state.vx = -motion.state.vx;
-  motion.state.vy = -motion.state.vy;
-  motion.state.omega = -motion.state.omega;
-  motion.x.bounds = x_.bounds;
-  motion.y.bounds = y_.bounds;
-  motion.phi.bounds = phi_.bounds;
-  return {system_, motion, longest};
+FlightView FlightView::back_from(const Flight::Motion& motion, double longest) const {
+  Flight::Motion back{motion.state, outlook_};
+  back.state.vx = -motion.state.vx;
+  back.state.vy = -motion.state.vy;
+  back.state.omega = -motion.state.omega;
+  back.outlook.acceleration = motion.outlook.acceleration;
+  return {system_, back, longest};
 }
 
 VIBRATORY_ALIGNMENT_INLINE PointMotion FlightView::point_without_turning(Site site) const {
   const auto [c, s] = tilt_;
   PointMotion m;
   m.p = place(site);
-  m.jerk = x_.bounds.third + y_.bounds.third;
+  m.jerk = sum_of(outlook_.third);
+  const Vec2 pull = acceleration();
   if (is_edge(site)) {
     m.rate = {-(state_.vx * c + state_.vy * s), state_.vx * s - state_.vy * c};
-    m.acceleration = {-(x_.acceleration * c + y_.acceleration * s), x_.acceleration * s - y_.acceleration * c};
+    m.acceleration = {-(pull.x * c + pull.y * s), pull.x * s - pull.y * c};
   } else {
     m.rate = {state_.vx, state_.vy};
-    m.acceleration = {x_.acceleration, y_.acceleration};
+    m.acceleration = pull;
   }
   return m;
 }
@@ -82,20 +80,20 @@ Clearance FlightView::clearance(const PointMotion& m, const Region& region, Face
 
 /// What the part's turning adds to the motion of an edge as seen from the part.
 void FlightView::turn_edge(PointMotion& m) const {
-  const double omega = state_.omega, alpha = phi_.acceleration;
-  const double pull = x_.bounds.second + y_.bounds.second, speed = x_.bounds.rate + y_.bounds.rate;
-  const FreeMotion::Bounds& turn = phi_.bounds;
+  const double omega = state_.omega, alpha = turning(outlook_.acceleration);
+  const double pull = sum_of(outlook_.second), speed = sum_of(outlook_.rate);
+  const double turn = turning(outlook_.rate);
   const Vec2 jp = turned(m.p), jv = turned(m.rate);
   m.rate = {m.rate.x - omega * jp.x, m.rate.y - omega * jp.y};
   m.acceleration = {m.acceleration.x - 2.0 * omega * jv.x - alpha * jp.x - omega * omega * m.p.x,
                     m.acceleration.y - 2.0 * omega * jv.y - alpha * jp.y - omega * omega * m.p.y};
-  m.jerk += 3.0 * (pull * turn.rate + speed * (turn.second + turn.rate * turn.rate));
+  m.jerk += 3.0 * (pull * turn + speed * (turning(outlook_.second) + turn * turn));
   add_turning_jerk(std::abs(m.p.x) + std::abs(m.p.y) + speed * longest_, m);
 }
 
 /// ... to that of a corner at r from the mass centre.
 void FlightView::turn_corner(const Vec2& r, PointMotion& m) const {
-  const double omega = state_.omega, alpha = phi_.acceleration;
+  const double omega = state_.omega, alpha = turning(outlook_.acceleration);
   const Vec2 jr = turned(r);
   m.rate = {m.rate.x + omega * jr.x, m.rate.y + omega * jr.y};
   m.acceleration = {m.acceleration.x + alpha * jr.x - omega * omega * r.x,
@@ -104,8 +102,8 @@ void FlightView::turn_corner(const Vec2& r, PointMotion& m) const {
 }
 
 void FlightView::add_turning_jerk(double reach, PointMotion& m) const {
-  const FreeMotion::Bounds& turn = phi_.bounds;
-  m.jerk += reach * (turn.third + 3.0 * turn.rate * turn.second + turn.rate * turn.rate * turn.rate);
+  const double turn = turning(outlook_.rate);
+  m.jerk += reach * (turning(outlook_.third) + 3.0 * turn * turning(outlook_.second) + turn * turn * turn);
 }
 
 }  // namespace vibratory_alignment

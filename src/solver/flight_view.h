@@ -35,7 +35,7 @@ class FlightView {
   FlightView(const System& system, const Flight::Motion& motion, double longest);
 
   /// From `motion`, to which this view reaches, back as far as `longest`: time runs the other way, and rates with it.
-  FlightView back_from(Flight::Motion motion, double longest) const;
+  FlightView back_from(const Flight::Motion& motion, double longest) const;
 
   double longest() const { return longest_; }
 
@@ -75,12 +75,16 @@ class FlightView {
   void turn_edge(PointMotion& motion) const;
   void turn_corner(const Vec2& r, PointMotion& motion) const;
   void add_turning_jerk(double reach, PointMotion& motion) const;
+  Vec2 acceleration() const { return {outlook_.acceleration[FreeMotion::kX], outlook_.acceleration[FreeMotion::kY]}; }
+  /// What a bound on |x'| and one on |y'| make together, and the like.
+  static double sum_of(const Quad& bounds) { return bounds[FreeMotion::kX] + bounds[FreeMotion::kY]; }
+  static double turning(const Quad& of) { return of[FreeMotion::kPhi]; }
 
   const System& system_;
   State state_;
   double longest_;
   Tilt tilt_;
-  FreeMotion::Outlook x_, y_, phi_;
+  FreeMotion::Outlook outlook_;
   double edge_speed_, corner_speed_;
 };
 

@@ -104,8 +104,8 @@ enum class Slopes { with, without };
 
 /// A fast start, long ago: what is left of it keeps its own digits, but for those of the phase and the exponent.
 void expect_digits_of_what_is_left(const Axis& axis) {
-  test::LoneMotion motion(0);
-  motion.begin(axis, 0.0, 3e3, 0.0);
+  test::LoneMotion motion(axis, 0);
+  motion.begin(0.0, 3e3, 0.0);
   motion.settle();
   ASSERT_TRUE(motion.exact());
   for (const double t : {5.0, 10.0, 20.0}) {
@@ -123,8 +123,8 @@ void expect_solution(const Axis& axis, double longest, Slopes slopes = Slopes::w
   for (const Load& load : loads()) {
     SCOPED_TRACE(load.name);
     if (slopes == Slopes::without && !load.forms.empty() && load.forms.back().slope != 0.0) continue;
-    test::LoneMotion motion(load.forms.size());
-    motion.begin(axis, q0, v0, load.force);
+    test::LoneMotion motion(axis, load.forms.size());
+    motion.begin(q0, v0, load.force);
     for (const DriveForm& form : load.forms) motion.add(form);
     motion.settle();
     ASSERT_TRUE(motion.exact());
@@ -166,8 +166,8 @@ TEST(FreeMotion, hugely_overdamped) { expect_solution(test::axis_of(1.0, 1e6, 1.
 TEST(FreeMotion, nearly_vanishing_stiffness) {
   for (const double k : {1e-3, 1e-8, 1e-14, 1e-30}) {
     const Axis axis = test::axis_of(1.0, 0.05, k, 0.2);
-    test::LoneMotion motion(1);
-    motion.begin(axis, 0.83, -0.37, 0.0);
+    test::LoneMotion motion(axis, 1);
+    motion.begin(0.83, -0.37, 0.0);
     motion.add(sine(1.0, 20.0, 0.4));
     motion.settle();
     ASSERT_TRUE(motion.exact());
@@ -180,8 +180,8 @@ TEST(FreeMotion, nearly_vanishing_stiffness) {
 
 /// exact() of an axis under one drive; when it is claimed, the claim is checked.
 bool claims_exact(const Axis& axis, const DriveForm& form, double force = 0.0) {
-  test::LoneMotion motion(1);
-  motion.begin(axis, 0.2, 0.1, force);
+  test::LoneMotion motion(axis, 1);
+  motion.begin(0.2, 0.1, force);
   motion.add(form);
   motion.settle();
   if (!motion.exact()) return false;
@@ -239,8 +239,8 @@ TEST(FreeMotion, a_locked_axis_stands_still) {
   Axis axis = test::axis_of(1.0, 0.1, 1.0, 0.6);
   axis.moves = false;
   axis.inverse_inertia = 0.0;
-  test::LoneMotion motion(1);
-  motion.begin(axis, 0.3, 0.0, -1.0);
+  test::LoneMotion motion(axis, 1);
+  motion.begin(0.3, 0.0, -1.0);
   motion.add(sine(1.0, 20.0, 0.4));
   motion.settle();
   double q = 1.0, v = 1.0;
@@ -262,8 +262,8 @@ TEST(FreeMotion, starts_where_it_starts) {
       for (int i = 0; i < 20; ++i) {
         const double q0 = u(random), v0 = u(random),
                      nu = (1.0 + off) * std::sqrt(axis.stiffness / axis.inertia) + (axis.stiffness == 0.0);
-        test::LoneMotion motion(2);
-        motion.begin(axis, q0, v0, u(random));
+        test::LoneMotion motion(axis, 2);
+        motion.begin(q0, v0, u(random));
         motion.add(sine(10.0 * u(random), nu, 3.0 * u(random)));
         motion.add(ramp(u(random), u(random)));
         motion.settle();
@@ -280,21 +280,98 @@ TEST(FreeMotion, starts_where_it_starts) {
 // A new flight knows nothing of the one before it.
 TEST(FreeMotion, begins_anew) {
   const Axis axis = test::axis_of(1.0, 0.05, 1.0, 0.6);
-  test::LoneMotion used(2), fresh(2);
-  used.begin(test::axis_of(1.0, 0.0, 0.0, 0.0), 5.0, 1.0, 2.0);
+  test::LoneMotion used(axis, 3), fresh(axis, 1);
+  used.begin(5.0, 1.0, 2.0);
   used.add(sine(1.0, 3.0, 1.0));
+  used.add(sine(0.4, 9.0, 0.0));
   used.add(ramp(0.3, 0.4));
   used.settle();
   for (test::LoneMotion* motion : {&used, &fresh}) {
-    motion->begin(axis, 0.83, -0.37, -0.2);
+    motion->begin(0.83, -0.37, -0.2);
     motion->add(sine(1.0, 20.0, 0.4));
     motion->settle();
   }
-  double q1, v1, q2, v2;
+  double q1 = 0.0, v1 = 0.0, q2 = 0.0, v2 = 0.0;
   used.at(1.7, q1, v1);
   fresh.at(1.7, q2, v2);
   EXPECT_EQ(q1, q2);
   EXPECT_EQ(v1, v2);
+}
+
+/// An axis of any damping with its drives, from anywhere.
+struct AxisAlone {
+  Axis axis;
+  std::vector<DriveForm> forms;
+  double q, v;
+};
+
+AxisAlone random_axis(std::mt19937& random) {
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const double m = std::pow(10.0, u(random)), k = u(random) > 0.8 ? 0.0 : std::pow(10.0, 1.5 * u(random));
+  const double critical = 2.0 * std::sqrt(k * m), ratio = u(random);
+  const double h = ratio > 0.6 ? critical : critical * std::pow(10.0, 2.0 * u(random));
+  AxisAlone alone{test::axis_of(m, h, k, 0.4 * u(random)), {}, u(random), u(random)};
+  for (int n = 0; n < 2; ++n)
+    if (u(random) > 0.0) alone.forms.push_back(sine(u(random), std::pow(10.0, u(random)), 3.0 * u(random)));
+  if (u(random) > 0.5) alone.forms.push_back(ramp(u(random), u(random)));
+  return alone;
+}
+
+// Three axes at once move as each of them does alone, to the last digit: their lanes know nothing of each other.
+TEST(FreeMotion, axes_do_not_know_each_other) {
+  constexpr double kUntouched = -77.0;
+  std::mt19937 random(20240503);
+  int exact = 0;
+  for (int i = 0; i < 2000; ++i) {
+    SCOPED_TRACE(i);
+    const AxisAlone alone[] = {random_axis(random), random_axis(random), random_axis(random)};
+    System system;
+    system.x = alone[0].axis;
+    system.y = alone[1].axis;
+    system.phi = alone[2].axis;
+    FreeMotion together(system, 9);
+    together.begin({alone[0].q, alone[1].q, alone[2].q, alone[0].v, alone[1].v, alone[2].v});
+    for (int j = 0; j < 3; ++j)
+      for (const DriveForm& form : alone[j].forms) together.add(static_cast<Direction>(j), form);
+    together.settle();
+    exact += together.exact();
+    const double t = 0.01 * i;
+    State state{kUntouched, kUntouched, kUntouched, kUntouched, kUntouched, kUntouched};
+    together.at(t, state);
+    State ahead;
+    FreeMotion::Outlook outlook;
+    if (together.exact()) together.at(t, t + 1.0, ahead, outlook);
+    const double q[] = {state.x, state.y, state.phi}, v[] = {state.vx, state.vy, state.omega};
+    double rate = 0.0;
+    bool all_exact = true;
+    for (int j = 0; j < 3; ++j) {
+      test::LoneMotion motion(alone[j].axis, 3);
+      motion.begin(alone[j].q, alone[j].v, 0.0);
+      for (const DriveForm& form : alone[j].forms) motion.add(form);
+      motion.settle();
+      rate = std::max(rate, motion.rate(t));
+      all_exact = all_exact && motion.exact();
+      double expected_q = kUntouched, expected_v = kUntouched;
+      motion.at(t, expected_q, expected_v);
+      EXPECT_EQ(q[j], expected_q) << j;
+      EXPECT_EQ(v[j], expected_v) << j;
+      EXPECT_EQ(q[j] == kUntouched, !motion.exact()) << j;
+      if (!together.exact()) continue;
+      const test::LoneMotion::Outlook expected = motion.outlook(t, t + 1.0);
+      EXPECT_EQ(outlook.acceleration[j], expected.acceleration) << j;
+      EXPECT_EQ(outlook.rate[j], expected.rate) << j;
+      EXPECT_EQ(outlook.second[j], expected.second) << j;
+      EXPECT_EQ(outlook.third[j], expected.third) << j;
+    }
+    EXPECT_EQ(together.exact(), all_exact);
+    EXPECT_EQ(together.rate(t), rate);
+    if (together.exact()) {
+      EXPECT_EQ(ahead.x, state.x);
+      EXPECT_EQ(ahead.vy, state.vy);
+      EXPECT_EQ(ahead.omega, state.omega);
+    }
+  }
+  EXPECT_GT(exact, 500);
 }
 
 }  // namespace

@@ -144,6 +144,12 @@ TEST(Bernstein, coefficients_that_are_zero_change_no_sign) {
   EXPECT_DOUBLE_EQ(zero_of_coefficients(form), 0.625);  // halfway from 1/4 to 4/4
   form.b = {0.0, -1.0, 0.0, 1.0, -1.0};
   EXPECT_EQ(sign_changes(form), 2);
+  form.b = {-1.0, 0.0, -2.0, -0.0, 0.0};
+  EXPECT_EQ(sign_changes(form), 0);
+  form.b = {1.0, -0.0, -0.0, 2.0, 0.0};
+  EXPECT_EQ(sign_changes(form), 0);
+  form.b = {0.0, -0.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(sign_changes(form), 0);
 }
 
 // The line through the coefficients of a straight line is that line.

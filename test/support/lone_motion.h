@@ -1,4 +1,4 @@
-// A FreeMotion with waves of its own, for what asks one axis for its motion at one time.
+// The free motion of one axis, the others locked, for what asks a single axis for its motion.
 #pragma once
 
 #include "mechanics/free_motion.h"
@@ -17,29 +17,57 @@ inline Axis axis_of(double inertia, double damping, double stiffness, double anc
   return axis;
 }
 
-class LoneMotion : public FreeMotion {
+class LoneMotion {
  public:
-  using FreeMotion::FreeMotion;
+  LoneMotion(const Axis& axis, std::size_t drive_count) : system_(system_of(axis)), motion_(system_, drive_count) {}
+  LoneMotion(const LoneMotion&) = delete;
 
-  void settle() {
-    waves_.clear();
-    FreeMotion::settle(waves_);
+  /// From q and v; a constant force comes as a drive.
+  void begin(double q, double v, double constant_force) {
+    State state;
+    state.y = q;
+    state.vy = v;
+    motion_.begin(state);
+    DriveForm force;
+    force.constant = constant_force;
+    add(force);
   }
+  void add(const DriveForm& form) { motion_.add(Direction::y, form); }
+  void settle() { motion_.settle(); }
+  bool exact() const { return motion_.exact(); }
+  double rate(double t) const { return motion_.rate(t); }
 
+  /// Leaves q and v as they are without an exact closed form.
   void at(double t, double& q, double& v) const {
-    Waves::Values values;
-    waves_.at(t, values);
-    FreeMotion::at(t, values, q, v);
+    State state;
+    state.y = q;
+    state.vy = v;
+    motion_.at(t, state);
+    q = state.y;
+    v = state.vy;
   }
 
+  /// The acceleration, and bounds on the absolute values of the first three derivatives.
+  struct Outlook {
+    double acceleration, rate, second, third;
+  };
   Outlook outlook(double t, double end) const {
-    Waves::Values values;
-    waves_.at(t, values);
-    return FreeMotion::outlook(t, end, values);
+    State state;
+    FreeMotion::Outlook outlook;
+    motion_.at(t, end, state, outlook);
+    constexpr int y = FreeMotion::kY;
+    return {outlook.acceleration[y], outlook.rate[y], outlook.second[y], outlook.third[y]};
   }
 
  private:
-  Waves waves_;
+  static System system_of(const Axis& axis) {
+    System system;
+    system.y = axis;
+    return system;
+  }
+
+  System system_;
+  FreeMotion motion_;
 };
 
 }  // namespace vibratory_alignment::test

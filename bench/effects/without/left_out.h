@@ -31,32 +31,6 @@ struct LockedAxis : Axis {
   }
 };
 
-/// In the place of the free motion of such an axis.
-template <typename FreeMotion>
-class LockedMotion : public FreeMotion {
- public:
-  using FreeMotion::FreeMotion;
-  template <typename Axis>
-  void begin(const Axis&, double q, double, double) {
-    q_ = q;
-  }
-  constexpr bool exact() const { return true; }
-  constexpr double rate(double) const { return 0.0; }
-  constexpr double series_rate() const { return 0.0; }
-  template <typename Waves>
-  void at(double, const Waves&, double& q, double& v) const {
-    q = q_;
-    v = 0.0;
-  }
-  template <typename Waves>
-  typename FreeMotion::Outlook outlook(double, double, const Waves&) const {
-    return {};
-  }
-
- private:
-  double q_ = 0.0;
-};
-
 /// In the place of the contact features.
 template <typename ContactFeatures, bool corners_allowed>
 struct SomeFeatures {
