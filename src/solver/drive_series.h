@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "mechanics/drive.h"
 #include "model/scene.h"
@@ -39,20 +40,26 @@ class DriveSeries {
   /// The drives of a segment from its start on; they have to outlive it. Nothing is made yet.
   void begin(const DriveForms& drives);
 
-  /// Makes drive_x, drive_y and drive_phi of the segment to this power. What is known of them is left as it is.
+  /// Makes drive_x, drive_y and drive_phi of the segment to this power. What is known of them is left as it is; the
+  /// places beyond, up to the next multiple of four, are of no meaning.
   void extend(int order, Segment& segment);
 
  private:
-  /// s(t) = amplitude sin, c(t) = amplitude cos of a drive's phase: their next powers, and the last ones.
+  /// Of a sine nu^k/k!, which is kept from segment to segment. Of a chirp its terms, amplitude sin of the phase, as far
+  /// as they are known; the next ones and the last of sine and cosine.
   struct Wave {
+    double frequency = NAN;  ///< of a sine
+    alignas(32) Series terms{};
     double s = 0.0, c = 0.0, s_before = 0.0, c_before = 0.0;
   };
 
-  void extend_drive(std::size_t drive, int order, Series& series);
+  static void set_powers(double frequency, Wave& wave);
+  void extend_chirp(const DriveForm& form, int order, Wave& wave) const;
+  void put(const DriveForm& form, const Wave& wave, bool first, int from, int order, Series& series) const;
 
   const DriveForms* drives_ = nullptr;
   int known_ = -1;  ///< highest power made
-  std::array<Wave, DriveForms::kMax> next_;
+  std::array<Wave, DriveForms::kMax> waves_;
 };
 
 }  // namespace vibratory_alignment

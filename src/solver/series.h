@@ -7,9 +7,10 @@
 
 namespace vibratory_alignment {
 
-/// Highest power kept anywhere; two more places serve positions, which are known two orders ahead of forces.
+/// Highest power kept anywhere; two more places serve positions, which are known two orders ahead of forces, and one
+/// makes room for four at a time.
 constexpr int kMaxOrder = 40;
-using Series = std::array<double, kMaxOrder + 3>;
+using Series = std::array<double, kMaxOrder + 4>;
 
 /// Two series side by side, for what comes in pairs: x and y, cos and sin. Summed two at a time by the processor.
 struct PairSeries {

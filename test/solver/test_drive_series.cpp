@@ -61,6 +61,29 @@ TEST(DriveSeries, is_the_same_in_one_go_and_in_several) {
   }
 }
 
+// A drive of another frequency, a chirp that has ended or one that begins: nothing is left of what was there before.
+TEST(DriveSeries, knows_nothing_of_the_segment_before) {
+  const DriveForms another = forms_of({{Direction::x, kChirp}, {Direction::y, kSine}, {Direction::phi, kSine}});
+  const auto fresh = made_in(another, {kOrder}), fresh_all = made_in(kAll, {kOrder});
+  DriveSeries series;
+  Segment segment;
+  for (int i = 0; i < 2; ++i) {
+    series.begin(kAll);
+    series.extend(kOrder, segment);
+    for (std::size_t k = 0; k <= kOrder; ++k) {
+      EXPECT_EQ(segment.drive_x[k], fresh_all->drive_x[k]) << k;
+      EXPECT_EQ(segment.drive_y[k], fresh_all->drive_y[k]) << k;
+    }
+    series.begin(another);
+    series.extend(kOrder, segment);
+    for (std::size_t k = 0; k <= kOrder; ++k) {
+      EXPECT_EQ(segment.drive_x[k], fresh->drive_x[k]) << k;
+      EXPECT_EQ(segment.drive_y[k], fresh->drive_y[k]) << k;
+      EXPECT_EQ(segment.drive_phi[k], fresh->drive_phi[k]) << k;
+    }
+  }
+}
+
 // Of a segment that has been used before nothing is left.
 TEST(DriveSeries, an_axis_without_a_drive_is_without_force) {
   const DriveForms along_y = forms_of({{Direction::y, kSine}});
