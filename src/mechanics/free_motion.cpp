@@ -12,10 +12,6 @@ namespace {
 /// Loss of digits through cancelling terms that the closed form is allowed before the series take over.
 constexpr double kLargestGain = 1e3;
 
-/// Near critical damping, |square| below the square of this part of the decay, the terms of the two modes nearly
-/// cancel.
-constexpr double kApart = 0.8;
-
 /// A mode has decayed when its velocity and third derivative are below these, relative to motions of order one.
 constexpr double kNoVelocity = 1e-18, kNoThird = 1e-6;
 
@@ -25,55 +21,8 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 }  // namespace
 
 FreeMotion::FreeMotion(const System& system, std::size_t drive_count)
-    : system_(system), axes_{&system.x, &system.y, &system.phi} {
+    : system_(system), axis_{&system.x, &system.y, &system.phi}, free_(system) {
   sines_.reserve(drive_count);
-  for (int i = 0; i < kAxes; ++i)
-    if (axes_[i]->moves) set_constants(i);
-}
-
-void FreeMotion::set_constants(int i) {
-  const double m = axes_[i]->inertia, h = axes_[i]->damping, k = axes_[i]->stiffness;
-  Constants& c = constants_[i];
-  c.decay = 0.5 * h / m;
-  // (a - w)(a + w) loses no digits near critical damping
-  c.pull = k / m;
-  c.frequency = std::sqrt(c.pull);
-  c.square = (c.decay - c.frequency) * (c.decay + c.frequency);
-  c.root = std::sqrt(std::abs(c.square));
-  c.apart = c.root > kApart * c.decay;
-  // the slow rate without cancellation
-  c.fast = c.decay + c.root;
-  c.slow = c.square > 0.0 ? c.pull / c.fast : c.decay;
-  c.own_rate = c.square > 0.0 ? c.fast : c.frequency;
-  fastest_axis_ = std::max(fastest_axis_, c.own_rate);
-
-  pull_[i] = c.pull;
-  decay_[i] = c.decay;
-  fall_[i] = c.slow;
-  slope_rate_[i] = c.square > 0.0 ? c.fast : c.decay;
-  if (c.square < 0.0) {
-    half_root_[i] = 0.5 * c.root;
-    inverse_root_[i] = 1.0 / c.root;
-    largest_half_root_ = std::max(largest_half_root_, 0.5 * c.root);
-    any_underdamped_ = true;
-  } else if (c.square > 0.0) {
-    between_[i] = 2.0 * c.root;
-    inverse_between_[i] = 0.5 / c.root;
-    any_overdamped_ = true;
-  } else {
-    critical_[i] = 1.0;
-  }
-  if (!c.apart) {
-    near_[i] = 1.0;
-    near_most_[i] = c.decay > 0.0 ? 0.5 / c.decay : 0.0;
-    any_near_ = true;
-  } else if (c.square < 0.0) {
-    mode_rate_[i] = c.frequency;
-  } else {
-    modes_[i] = -1;
-    mode_rate_[i] = c.slow;
-    fast_mode_rate_[i] = c.fast;
-  }
 }
 
 void FreeMotion::begin(const State& state) {
@@ -85,12 +34,12 @@ void FreeMotion::begin(const State& state) {
   sine_count_ = {};
   driven_rate_ = 0.0;
   const double velocity[] = {state.vx, state.vy, state.omega};
-  for (int i = 0; i < kAxes; ++i) start_v_[i] = axes_[i]->moves ? velocity[i] : 0.0;
+  for (int i = 0; i < FreeAxes::kCount; ++i) start_v_[i] = axis_[i]->moves ? velocity[i] : 0.0;
 }
 
 void FreeMotion::add(Direction direction, const DriveForm& form) {
   const auto i = static_cast<int>(direction);
-  const Axis& axis = *axes_[i];
+  const Axis& axis = *axis_[i];
   if (!axis.moves) return;
   constant_[i] += form.constant;
   slope_[i] += form.slope;
@@ -118,34 +67,34 @@ void FreeMotion::settle() {
   c_factor_ = s_factor_ = p1_ = p2_ = p3_ = Quad{};
   mode_ = fast_mode_ = least_rate_ = least_second_ = least_third_ = Quad{};
   fading_ = {};
-  series_rate_ = std::max(fastest_axis_, driven_rate_);
-  for (int i = 0; i < kAxes; ++i)
-    if (axes_[i]->moves) settle_axis(i);
-  exact_ = axis_exact_[kX] && axis_exact_[kY] && axis_exact_[kPhi];
+  series_rate_ = std::max(free_.fastest, driven_rate_);
+  for (int i = 0; i < FreeAxes::kCount; ++i)
+    if (axis_[i]->moves) settle_axis(i);
+  exact_ = axis_exact_[FreeAxes::kX] && axis_exact_[FreeAxes::kY] && axis_exact_[FreeAxes::kPhi];
 }
 
 void FreeMotion::settle_axis(int i) {
-  const double m = axes_[i]->inertia, h = axes_[i]->damping, k = axes_[i]->stiffness;
+  const double m = axis_[i]->inertia, h = axis_[i]->damping, k = axis_[i]->stiffness;
   const double constant = constant_[i], slope = slope_[i];
   bool exact = axis_exact_[i];
   double p0 = 0.0, p1 = 0.0, p2 = 0.0, p3 = 0.0;
   if (k > 0.0) {
     p1 = slope / k;
-    p0 = axes_[i]->anchor + (constant - h * p1) / k;
+    p0 = axis_[i]->anchor + (constant - h * p1) / k;
     // a soft spring's far equilibrium: the long way to it cancels against the start
     exact = exact && !(std::abs(p0 - start_q_[i]) > kLargestGain || std::abs(p1) > kLargestGain);
   } else if (h > 0.0) {
     p2 = 0.5 * slope / h;
     p1 = (constant - 2.0 * m * p2) / h;
     const bool pulled = constant != 0.0 || slope != 0.0;
-    exact = exact && !((pulled && constants_[i].decay < 1.0 / kLargestGain) || std::abs(p1) > kLargestGain);
+    exact = exact && !((pulled && free_.axis[i].decay < 1.0 / kLargestGain) || std::abs(p1) > kLargestGain);
   } else {
     p2 = 0.5 * constant / m;
     p3 = slope / (6.0 * m);
   }
   axis_exact_[i] = exact;
   if (!exact) {
-    fading_[0].rate[i] = constants_[i].own_rate;
+    fading_[0].rate[i] = free_.axis[i].own_rate;
     fading_[0].until[i] = std::numeric_limits<double>::infinity();
     return;
   }
@@ -174,7 +123,7 @@ void FreeMotion::settle_axis(int i) {
 
 /// Amplitudes of the modes, and when they have decayed.
 void FreeMotion::find_modes(int i, double c, double s) {
-  const auto& [pull, frequency, decay, square, root, slow, fast, own_rate, apart] = constants_[i];
+  const auto& [pull, frequency, decay, square, root, slow, fast, own_rate, apart] = free_.axis[i];
   if (!apart) {
     // t exp(-slow t) falls below exp(-slow t / 2) / slow
     fading_[0].set(i, own_rate, slow > 0.0 ? std::abs(c) + std::abs(s + decay * c) / slow : 0.0, 0.5 * slow);

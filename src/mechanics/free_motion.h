@@ -9,16 +9,12 @@
 #include <vector>
 
 #include "mechanics/drive.h"
-#include "mechanics/quad.h"
-#include "mechanics/system.h"
+#include "mechanics/free_axes.h"
 
 namespace vibratory_alignment {
 
 class FreeMotion {
  public:
-  /// Lanes of the axes; what is in the fourth stands still.
-  static constexpr int kX = 0, kY = 1, kPhi = 2, kAxes = 3;
-
   /// Of a system that outlives it, of which only anchors may change, from the next flight on. Room for `drive_count`
   /// drives; nothing is allocated later.
   FreeMotion(const System& system, std::size_t drive_count);
@@ -36,7 +32,7 @@ class FreeMotion {
   double rate(double t) const {
     double rate = driven_rate_;
     for (const Fading& part : fading_)
-      for (int i = 0; i < kAxes; ++i)
+      for (int i = 0; i < FreeAxes::kCount; ++i)
         if (t < part.until[i]) rate = std::max(rate, part.rate[i]);
     return rate;
   }
@@ -48,7 +44,7 @@ class FreeMotion {
   /// `state`.
   void at(double t, State& state) const { evaluate(t, t, state, nullptr); }
 
-  /// The accelerations at a time, and bounds on the absolute values of q', q'', q''' from then on.
+  /// The accelerations at a time, and bounds on the absolute values of q', q'', q''' from then on. Lanes: FreeAxes.
   struct Outlook {
     Quad acceleration{}, rate{}, second{}, third{};
   };
@@ -56,14 +52,6 @@ class FreeMotion {
   void at(double t, double end, State& state, Outlook& outlook) const { evaluate(t, end, state, &outlook); }
 
  private:
-  /// What does not change from flight to flight of an axis.
-  struct Constants {
-    double pull = 0.0, frequency = 0.0;            ///< k/m and its root
-    double decay = 0.0, square = 0.0, root = 0.0;  ///< h/2m, (h/2m)^2 - k/m, sqrt of its absolute value
-    double slow = 0.0, fast = 0.0;                 ///< rates of the two exponentials of an overdamped axis
-    double own_rate = 0.0;                         ///< its fastest rate
-    bool apart = false;                            ///< far enough from critical damping to be bounded mode by mode
-  };
   /// The response to one drive of each axis.
   struct Sines {
     Quad frequency{}, half_frequency{}, sin_amplitude{}, cos_amplitude{};
@@ -84,7 +72,6 @@ class FreeMotion {
     Quad q, v, driven_acceleration;
   };
 
-  void set_constants(int axis);
   void settle_axis(int axis);
   void find_modes(int axis, double c_factor, double s_factor);
   void own_at(double t, Own& own) const;
@@ -93,25 +80,14 @@ class FreeMotion {
   void put(const Motion& motion, State& state) const;
   void evaluate(double t, double end, State& state, Outlook* outlook) const;
 
-  // of the axes; lanes are 0 where an axis does not move or is not of that kind
   const System& system_;
-  std::array<const Axis*, kAxes> axes_;
-  std::array<Constants, kAxes> constants_;
-  Quad pull_{}, decay_{};
-  Quad half_root_{}, inverse_root_{};    ///< underdamped: root/2, 1/root
-  Quad between_{}, inverse_between_{};   ///< overdamped: 2 root, how far apart its rates are
-  Quad critical_{};                      ///< critically damped: 1
-  Quad fall_{}, slope_rate_{};           ///< overdamped: slow and fast; else decay
-  QuadMask modes_{};                     ///< overdamped, apart
-  Quad mode_rate_{}, fast_mode_rate_{};  ///< apart: frequency, or slow and fast
-  Quad near_{}, near_most_{};            ///< not apart: 1, 1/(2 decay)
-  double largest_half_root_ = 0.0, fastest_axis_ = 0.0;
-  bool any_underdamped_ = false, any_overdamped_ = false, any_near_ = false;
+  std::array<const Axis*, FreeAxes::kCount> axis_;
+  FreeAxes free_;
 
   // of the flight
   bool exact_ = true;
-  std::array<bool, kAxes> axis_exact_{};
-  std::array<double, kAxes> constant_{}, slope_{};  ///< forces
+  std::array<bool, FreeAxes::kCount> axis_exact_{};
+  std::array<double, FreeAxes::kCount> constant_{}, slope_{};  ///< forces
   Quad start_q_{}, start_v_{};
   Quad c_factor_{}, s_factor_{};
   Quad p1_{}, p2_{}, p3_{};                             ///< polynomial part of the particular solution, but for p0
@@ -119,7 +95,7 @@ class FreeMotion {
   Quad least_rate_{}, least_second_{}, least_third_{};  ///< bounds on what neither falls nor grows
   std::array<Fading, 2> fading_;                        ///< of the axes' own motion
   std::vector<Sines> sines_;
-  std::array<std::size_t, kAxes> sine_count_{};
+  std::array<std::size_t, FreeAxes::kCount> sine_count_{};
   double driven_rate_ = 0.0, series_rate_ = 0.0;  ///< fastest of the drives; of drives and axes
 };
 

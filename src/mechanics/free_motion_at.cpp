@@ -23,28 +23,28 @@ VIBRATORY_ALIGNMENT_INLINE void add_bounds(const Quad& amplitude, const Quad& ra
 
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::own_at(double t, Own& own) const {
   Quad change;
-  exp_change(fall_ * -t, change, own.left);
-  Quad swing = critical_ * t;  // S without its fall
-  Quad swing_change{};         // cos - 1
-  if (any_underdamped_) {
+  exp_change(free_.fall * -t, change, own.left);
+  Quad swing = free_.critical * t;  // S without its fall
+  Quad swing_change{};              // cos - 1
+  if (free_.any_underdamped) {
     Quad half_sin, half_cos;
-    sin_cos_of_any(half_root_ * t, largest_half_root_ * t, half_sin, half_cos);
-    swing += 2.0 * half_sin * half_cos * inverse_root_;
+    sin_cos_of_any(free_.half_root * t, free_.largest_half_root * t, half_sin, half_cos);
+    swing += 2.0 * half_sin * half_cos * free_.inverse_root;
     swing_change = -2.0 * half_sin * half_sin;
   }
-  if (any_overdamped_) {
+  if (free_.any_overdamped) {
     Quad apart_change;
-    exp_change(between_ * -t, apart_change, own.left_between);
-    swing -= apart_change * inverse_between_;
+    exp_change(free_.between * -t, apart_change, own.left_between);
+    swing -= apart_change * free_.inverse_between;
   }
   own.s = own.left * swing;
-  own.c_change = own.left * swing_change + change + fall_ * own.s;
+  own.c_change = own.left * swing_change + change + free_.fall * own.s;
   own.cosine = 1.0 + swing_change;
 }
 
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::move(double t, const Own& own, Motion& motion) const {
   motion.q = start_q_ + c_factor_ * own.c_change + s_factor_ * own.s;
-  motion.v = start_v_ - c_factor_ * pull_ * own.s + s_factor_ * (own.c_change - 2.0 * decay_ * own.s);
+  motion.v = start_v_ - c_factor_ * free_.pull * own.s + s_factor_ * (own.c_change - 2.0 * free_.decay * own.s);
   motion.q += t * (p1_ + t * (p2_ + t * p3_));
   motion.v += t * (2.0 * p2_ + t * 3.0 * p3_);
   motion.driven_acceleration = 2.0 * p2_ + 6.0 * p3_ * t;
@@ -64,10 +64,10 @@ VIBRATORY_ALIGNMENT_INLINE void FreeMotion::move(double t, const Own& own, Motio
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::look(double end, const Own& own, const Motion& motion,
                                                  Outlook& outlook) const {
   // S' = exp(-a t) cos(r t) - a S and the like, and C itself: what is left of the motion keeps its digits
-  const Quad slope = own.left * own.cosine - slope_rate_ * own.s;
-  const Quad first = s_factor_ * slope - c_factor_ * pull_ * own.s;
-  const Quad q = c_factor_ * (slope + 2.0 * decay_ * own.s) + s_factor_ * own.s;
-  const Quad second = -pull_ * q - 2.0 * decay_ * first;
+  const Quad slope = own.left * own.cosine - free_.slope_rate * own.s;
+  const Quad first = s_factor_ * slope - c_factor_ * free_.pull * own.s;
+  const Quad q = c_factor_ * (slope + 2.0 * free_.decay * own.s) + s_factor_ * own.s;
+  const Quad second = -free_.pull * q - 2.0 * free_.decay * first;
   outlook.acceleration = second;
   outlook.rate = least_rate_;
   outlook.second = least_second_;
@@ -76,39 +76,41 @@ VIBRATORY_ALIGNMENT_INLINE void FreeMotion::look(double end, const Own& own, con
   add_size(p3_, Quad{} + 3.0 * end * end, outlook.rate);
   add_size(p3_, Quad{} + 6.0 * end, outlook.second);
   const Quad mode = mode_ * own.left;
-  add_bounds(mode, mode_rate_, outlook);
-  if (any_overdamped_) {
+  add_bounds(mode, free_.mode_rate, outlook);
+  if (free_.any_overdamped) {
     // two exponentials, each of which falls: what bounds it at one time bounds it ever after
     const Quad fast_mode = fast_mode_ * own.left * own.left_between;
-    add_bounds(fast_mode, fast_mode_rate_, outlook);
-    const Quad acceleration = mode * mode_rate_ * mode_rate_ + fast_mode * fast_mode_rate_ * fast_mode_rate_;
-    outlook.acceleration = modes_ ? acceleration : second;
+    add_bounds(fast_mode, free_.fast_mode_rate, outlook);
+    const Quad acceleration =
+        mode * free_.mode_rate * free_.mode_rate + fast_mode * free_.fast_mode_rate * free_.fast_mode_rate;
+    outlook.acceleration = free_.modes ? acceleration : second;
   }
   outlook.acceleration += motion.driven_acceleration;
-  if (any_near_) {
+  if (free_.any_near) {
     // derivative n after a time s: exp(-a s) (q_n cosh(r s) + (q_n+1 + a q_n) sinh(r s)/r), the last below 1/2a
-    const Quad third = -pull_ * first - 2.0 * decay_ * second, fourth = -pull_ * second - 2.0 * decay_ * third;
-    add_size(first, near_, outlook.rate);
-    add_size(second + decay_ * first, near_most_, outlook.rate);
-    add_size(second, near_, outlook.second);
-    add_size(third + decay_ * second, near_most_, outlook.second);
-    add_size(third, near_, outlook.third);
-    add_size(fourth + decay_ * third, near_most_, outlook.third);
+    const Quad third = -free_.pull * first - 2.0 * free_.decay * second,
+               fourth = -free_.pull * second - 2.0 * free_.decay * third;
+    add_size(first, free_.near, outlook.rate);
+    add_size(second + free_.decay * first, free_.near_most, outlook.rate);
+    add_size(second, free_.near, outlook.second);
+    add_size(third + free_.decay * second, free_.near_most, outlook.second);
+    add_size(third, free_.near, outlook.third);
+    add_size(fourth + free_.decay * third, free_.near_most, outlook.third);
   }
 }
 
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::put(const Motion& motion, State& state) const {
-  if (axis_exact_[kX]) {
-    state.x = motion.q[kX];
-    state.vx = motion.v[kX];
+  if (axis_exact_[FreeAxes::kX]) {
+    state.x = motion.q[FreeAxes::kX];
+    state.vx = motion.v[FreeAxes::kX];
   }
-  if (axis_exact_[kY]) {
-    state.y = motion.q[kY];
-    state.vy = motion.v[kY];
+  if (axis_exact_[FreeAxes::kY]) {
+    state.y = motion.q[FreeAxes::kY];
+    state.vy = motion.v[FreeAxes::kY];
   }
-  if (axis_exact_[kPhi]) {
-    state.phi = motion.q[kPhi];
-    state.omega = motion.v[kPhi];
+  if (axis_exact_[FreeAxes::kPhi]) {
+    state.phi = motion.q[FreeAxes::kPhi];
+    state.omega = motion.v[FreeAxes::kPhi];
   }
 }
 

@@ -75,10 +75,10 @@ class FlightView {
   void turn_edge(PointMotion& motion) const;
   void turn_corner(const Vec2& r, PointMotion& motion) const;
   void add_turning_jerk(double reach, PointMotion& motion) const;
-  Vec2 acceleration() const { return {outlook_.acceleration[FreeMotion::kX], outlook_.acceleration[FreeMotion::kY]}; }
+  Vec2 acceleration() const { return {outlook_.acceleration[FreeAxes::kX], outlook_.acceleration[FreeAxes::kY]}; }
   /// What a bound on |x'| and one on |y'| make together, and the like.
-  static double sum_of(const Quad& bounds) { return bounds[FreeMotion::kX] + bounds[FreeMotion::kY]; }
-  static double turning(const Quad& of) { return of[FreeMotion::kPhi]; }
+  static double sum_of(const Quad& bounds) { return bounds[FreeAxes::kX] + bounds[FreeAxes::kY]; }
+  static double turning(const Quad& of) { return of[FreeAxes::kPhi]; }
 
   const System& system_;
   State state_;

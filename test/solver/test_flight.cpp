@@ -422,7 +422,7 @@ TEST(Flight, rounding_of_large_forces_hides_no_touch) {
     flight.at(t, state);
     Flight::Motion motion;
     flight.motion_at(t, t, motion);
-    EXPECT_NEAR(motion.outlook.acceleration[FreeMotion::kPhi],
+    EXPECT_NEAR(motion.outlook.acceleration[FreeAxes::kPhi],
                 (start.phi - system.phi.anchor) * slow * slow * std::exp(-slow * t), 1e-14);
     const FlightOutlook outlook = look_ahead(system, flight, t, state, {}, {}, {}, {}, 3.0 / slow);
     landings += outlook.lands;

@@ -55,7 +55,7 @@ class LoneMotion {
     State state;
     FreeMotion::Outlook outlook;
     motion_.at(t, end, state, outlook);
-    constexpr int y = FreeMotion::kY;
+    constexpr int y = FreeAxes::kY;
     return {outlook.acceleration[y], outlook.rate[y], outlook.second[y], outlook.third[y]};
   }
 
