@@ -15,9 +15,9 @@ struct Fixed {
     return *this;
   }
 };
-inline constexpr Fixed<bool, 0> kNever{};
-inline constexpr Fixed<bool, 1> kAlways{};
-inline constexpr Fixed<double, 0> kZero{};
+inline constexpr Fixed<bool, 0> kFixedFalse{};
+inline constexpr Fixed<bool, 1> kFixedTrue{};
+inline constexpr Fixed<double, 0> kFixedZero{};
 
 /// In the place of an axis that never moves.
 template <typename Axis>
