@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""R1 by `event` and by odeint in turns, in random order, for the table of docs/accuracy.md between <!-- turns -->.
+
+The clock of a machine may change between two speeds within minutes: of programs that take turns of a second both meet
+either. Settings are those that keep the errors in the lines of `run`, times the second least of all turns.
+Usage: in_turns.py BUILD_DIRECTORY FILE.csv [TURNS]     (24 turns unless given: two minutes; targets peers and cost)
+"""
+import os
+import random
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(os.path.dirname(HERE), "support"))
+from bench_tools import ROOT, markdown, output_of, replace_table, stamp  # noqa: E402
+from table import POSITION, keeping, read, seconds  # noqa: E402
+
+ERRORS = (1e-6, 1e-9)
+OWN, PEER = "own_event", "odeint_dopri5"
+PROBLEMS = (("R1, tanh friction", "r1", "r1"), ("R1, dry friction", "r1_dry", "r1"))
+
+
+def setting(runs, answers, problem, tool, error):
+    run = keeping(runs[problem][tool], answers[problem], POSITION, error)
+    if run is None:
+        sys.exit("%s does not reach %g on %s" % (tool, error, problem))
+    return run.setting
+
+
+def own_times(build, cells):
+    """{(problem, tolerance): CPU time of a trial, s}."""
+    cost = os.path.join(build, "devel", "lib", "vibratory_alignment", "cost")
+    if not os.path.exists(cost):
+        cost = os.path.join(ROOT, "devel", "lib", "vibratory_alignment", "cost")
+    scene = os.path.join(ROOT, "config", "scenes", "%s.yaml")
+    for problem, tolerance in random.sample(cells, len(cells)):
+        line = output_of([cost, "time", scene % problem, "solver.tolerance=%r" % tolerance])
+        yield (problem, tolerance), 1e-6 * float(line.split()[0])
+
+
+def peer_times(build, problem):
+    for line in output_of([os.path.join(build, "peers", "peer_" + PEER), problem]).splitlines():
+        fields = line.split(",")
+        yield (problem, float(fields[2])), float(fields[12])
+
+
+def main():
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__)
+    build, turns = sys.argv[1], int(sys.argv[3]) if len(sys.argv) == 4 else 24
+    runs, answers = read(sys.argv[2])
+    rows = [(name, error, (own, setting(runs, answers, own, OWN, error)),
+             (peer, setting(runs, answers, peer, PEER, error)))
+            for name, own, peer in PROBLEMS for error in ERRORS]
+    own_cells, problems = [row[2] for row in rows], sorted({row[3][0] for row in rows})
+    times = {}
+    for _ in range(turns):
+        for key, time in own_times(build, own_cells):
+            times.setdefault((OWN,) + key, []).append(time)
+        for problem in problems:
+            for key, time in peer_times(build, problem):
+                times.setdefault((PEER,) + key, []).append(time)
+    lines = []
+    for name, error, own, peer in rows:
+        ours, theirs = (sorted(times[(tool,) + key])[1] for tool, key in ((OWN, own), (PEER, peer)))
+        lines.append([name, "%.0e" % error, seconds(ours), seconds(theirs), "**%.2g**" % (theirs / ours)])
+    replace_table("accuracy.md", "turns",
+                  stamp("bench/peers/in_turns.py") + "\n\n" + markdown(["problem", "error", "event", "odeint", "ratio"], lines))
+
+
+if __name__ == "__main__":
+    main()
