@@ -11,7 +11,7 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "support"))
-from bench_tools import ROOT, markdown, output_of, replace_table, stamp  # noqa: E402
+from bench_tools import ROOT, markdown, output_of, program_of, replace_table, stamp  # noqa: E402
 from table import POSITION, keeping, read, seconds  # noqa: E402
 
 ERRORS = (1e-6, 1e-9)
@@ -27,10 +27,8 @@ def setting(runs, answers, problem, tool, error):
 
 
 def own_times(build, cells):
-    """{(problem, tolerance): CPU time of a trial, s}."""
-    cost = os.path.join(build, "devel", "lib", "vibratory_alignment", "cost")
-    if not os.path.exists(cost):
-        cost = os.path.join(ROOT, "devel", "lib", "vibratory_alignment", "cost")
+    """Pairs of (problem, tolerance) and the CPU time of a trial, s, in random order."""
+    cost = program_of(build, "cost")
     scene = os.path.join(ROOT, "config", "scenes", "%s.yaml")
     for problem, tolerance in random.sample(cells, len(cells)):
         line = output_of([cost, "time", scene % problem, "solver.tolerance=%r" % tolerance])
@@ -38,6 +36,7 @@ def own_times(build, cells):
 
 
 def peer_times(build, problem):
+    """Likewise of the peer, of all its tolerances."""
     for line in output_of([os.path.join(build, "peers", "peer_" + PEER), problem]).splitlines():
         fields = line.split(",")
         yield (problem, float(fields[2])), float(fields[12])

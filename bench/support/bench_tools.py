@@ -51,6 +51,12 @@ def instructions_by_function(command, functions, counted=COUNTED):
     return text, {name: found.get(name, 0) for name in functions}
 
 
+def program_of(build, name):
+    """A program of the package: that of the build directory's own devel/, else that of the checkout's."""
+    own, common = (os.path.join(root, "devel", "lib", "vibratory_alignment", name) for root in (build, ROOT))
+    return own if os.path.exists(own) else common
+
+
 def stamp(command):
     """The line above a table: which command made it, when and on what."""
     with open("/proc/cpuinfo") as file:

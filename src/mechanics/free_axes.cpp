@@ -17,10 +17,10 @@ FreeAxes::FreeAxes(const System& system) {
   if (system.phi.moves) set(kPhi, system.phi);
 }
 
-void FreeAxes::set(int i, const vibratory_alignment::Axis& of) {
-  Axis& a = axis[i];
-  a.decay = 0.5 * of.damping / of.inertia;
-  a.pull = of.stiffness / of.inertia;
+void FreeAxes::set(int i, const Axis& axis) {
+  Constants& a = constants[i];
+  a.decay = 0.5 * axis.damping / axis.inertia;
+  a.pull = axis.stiffness / axis.inertia;
   a.frequency = std::sqrt(a.pull);
   // (a - w)(a + w) loses no digits near critical damping
   a.square = (a.decay - a.frequency) * (a.decay + a.frequency);

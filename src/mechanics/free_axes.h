@@ -16,14 +16,14 @@ struct FreeAxes {
   explicit FreeAxes(const System& system);
 
   /// With a = h/2m. Rates and roots are 1 per unit of time.
-  struct Axis {
+  struct Constants {
     double pull = 0.0, frequency = 0.0;            ///< k/m and its root
     double decay = 0.0, square = 0.0, root = 0.0;  ///< a, a^2 - k/m, and the root of the absolute value of that
     double slow = 0.0, fast = 0.0;                 ///< rates of the two exponentials of an overdamped axis
     double own_rate = 0.0;                         ///< its fastest rate
     bool apart = false;                            ///< far enough from critical damping to be bounded mode by mode
   };
-  std::array<Axis, kCount> axis;
+  std::array<Constants, kCount> constants;
 
   // lanes: 0 where an axis does not move or is not of that kind
   Quad pull{}, decay{};
@@ -40,7 +40,7 @@ struct FreeAxes {
   double fastest = 0.0;  ///< own rate of all
 
  private:
-  void set(int i, const vibratory_alignment::Axis& of);
+  void set(int i, const Axis& axis);
 };
 
 }  // namespace vibratory_alignment

@@ -21,7 +21,7 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 }  // namespace
 
 FreeMotion::FreeMotion(const System& system, std::size_t drive_count)
-    : system_(system), axis_{&system.x, &system.y, &system.phi}, free_(system) {
+    : system_(system), axis_{&system.x, &system.y, &system.phi}, free_axes_(system) {
   sines_.reserve(drive_count);
 }
 
@@ -67,7 +67,7 @@ void FreeMotion::settle() {
   c_factor_ = s_factor_ = p1_ = p2_ = p3_ = Quad{};
   mode_ = fast_mode_ = least_rate_ = least_second_ = least_third_ = Quad{};
   fading_ = {};
-  series_rate_ = std::max(free_.fastest, driven_rate_);
+  series_rate_ = std::max(free_axes_.fastest, driven_rate_);
   for (int i = 0; i < FreeAxes::kCount; ++i)
     if (axis_[i]->moves) settle_axis(i);
   exact_ = axis_exact_[FreeAxes::kX] && axis_exact_[FreeAxes::kY] && axis_exact_[FreeAxes::kPhi];
@@ -87,14 +87,14 @@ void FreeMotion::settle_axis(int i) {
     p2 = 0.5 * slope / h;
     p1 = (constant - 2.0 * m * p2) / h;
     const bool pulled = constant != 0.0 || slope != 0.0;
-    exact = exact && !((pulled && free_.axis[i].decay < 1.0 / kLargestGain) || std::abs(p1) > kLargestGain);
+    exact = exact && !((pulled && free_axes_.constants[i].decay < 1.0 / kLargestGain) || std::abs(p1) > kLargestGain);
   } else {
     p2 = 0.5 * constant / m;
     p3 = slope / (6.0 * m);
   }
   axis_exact_[i] = exact;
   if (!exact) {
-    fading_[0].rate[i] = free_.axis[i].own_rate;
+    fading_[0].rate[i] = free_axes_.constants[i].own_rate;
     fading_[0].until[i] = std::numeric_limits<double>::infinity();
     return;
   }
@@ -123,7 +123,7 @@ void FreeMotion::settle_axis(int i) {
 
 /// Amplitudes of the modes, and when they have decayed.
 void FreeMotion::find_modes(int i, double c, double s) {
-  const auto& [pull, frequency, decay, square, root, slow, fast, own_rate, apart] = free_.axis[i];
+  const auto& [pull, frequency, decay, square, root, slow, fast, own_rate, apart] = free_axes_.constants[i];
   if (!apart) {
     // t exp(-slow t) falls below exp(-slow t / 2) / slow
     fading_[0].set(i, own_rate, slow > 0.0 ? std::abs(c) + std::abs(s + decay * c) / slow : 0.0, 0.5 * slow);

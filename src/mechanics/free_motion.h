@@ -82,7 +82,7 @@ class FreeMotion {
 
   const System& system_;
   std::array<const Axis*, FreeAxes::kCount> axis_;
-  FreeAxes free_;
+  FreeAxes free_axes_;
 
   // of the flight
   bool exact_ = true;

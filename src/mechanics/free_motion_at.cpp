@@ -23,28 +23,29 @@ VIBRATORY_ALIGNMENT_INLINE void add_bounds(const Quad& amplitude, const Quad& ra
 
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::own_at(double t, Own& own) const {
   Quad change;
-  exp_change(free_.fall * -t, change, own.left);
-  Quad swing = free_.critical * t;  // S without its fall
-  Quad swing_change{};              // cos - 1
-  if (free_.any_underdamped) {
+  exp_change(free_axes_.fall * -t, change, own.left);
+  Quad swing = free_axes_.critical * t;  // S without its fall
+  Quad swing_change{};                   // cos - 1
+  if (free_axes_.any_underdamped) {
     Quad half_sin, half_cos;
-    sin_cos_of_any(free_.half_root * t, free_.largest_half_root * t, half_sin, half_cos);
-    swing += 2.0 * half_sin * half_cos * free_.inverse_root;
+    sin_cos_of_any(free_axes_.half_root * t, free_axes_.largest_half_root * t, half_sin, half_cos);
+    swing += 2.0 * half_sin * half_cos * free_axes_.inverse_root;
     swing_change = -2.0 * half_sin * half_sin;
   }
-  if (free_.any_overdamped) {
+  if (free_axes_.any_overdamped) {
     Quad apart_change;
-    exp_change(free_.between * -t, apart_change, own.left_between);
-    swing -= apart_change * free_.inverse_between;
+    exp_change(free_axes_.between * -t, apart_change, own.left_between);
+    swing -= apart_change * free_axes_.inverse_between;
   }
   own.s = own.left * swing;
-  own.c_change = own.left * swing_change + change + free_.fall * own.s;
+  own.c_change = own.left * swing_change + change + free_axes_.fall * own.s;
   own.cosine = 1.0 + swing_change;
 }
 
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::move(double t, const Own& own, Motion& motion) const {
   motion.q = start_q_ + c_factor_ * own.c_change + s_factor_ * own.s;
-  motion.v = start_v_ - c_factor_ * free_.pull * own.s + s_factor_ * (own.c_change - 2.0 * free_.decay * own.s);
+  motion.v =
+      start_v_ - c_factor_ * free_axes_.pull * own.s + s_factor_ * (own.c_change - 2.0 * free_axes_.decay * own.s);
   motion.q += t * (p1_ + t * (p2_ + t * p3_));
   motion.v += t * (2.0 * p2_ + t * 3.0 * p3_);
   motion.driven_acceleration = 2.0 * p2_ + 6.0 * p3_ * t;
@@ -64,10 +65,10 @@ VIBRATORY_ALIGNMENT_INLINE void FreeMotion::move(double t, const Own& own, Motio
 VIBRATORY_ALIGNMENT_INLINE void FreeMotion::look(double end, const Own& own, const Motion& motion,
                                                  Outlook& outlook) const {
   // S' = exp(-a t) cos(r t) - a S and the like, and C itself: what is left of the motion keeps its digits
-  const Quad slope = own.left * own.cosine - free_.slope_rate * own.s;
-  const Quad first = s_factor_ * slope - c_factor_ * free_.pull * own.s;
-  const Quad q = c_factor_ * (slope + 2.0 * free_.decay * own.s) + s_factor_ * own.s;
-  const Quad second = -free_.pull * q - 2.0 * free_.decay * first;
+  const Quad slope = own.left * own.cosine - free_axes_.slope_rate * own.s;
+  const Quad first = s_factor_ * slope - c_factor_ * free_axes_.pull * own.s;
+  const Quad q = c_factor_ * (slope + 2.0 * free_axes_.decay * own.s) + s_factor_ * own.s;
+  const Quad second = -free_axes_.pull * q - 2.0 * free_axes_.decay * first;
   outlook.acceleration = second;
   outlook.rate = least_rate_;
   outlook.second = least_second_;
@@ -76,26 +77,26 @@ VIBRATORY_ALIGNMENT_INLINE void FreeMotion::look(double end, const Own& own, con
   add_size(p3_, Quad{} + 3.0 * end * end, outlook.rate);
   add_size(p3_, Quad{} + 6.0 * end, outlook.second);
   const Quad mode = mode_ * own.left;
-  add_bounds(mode, free_.mode_rate, outlook);
-  if (free_.any_overdamped) {
+  add_bounds(mode, free_axes_.mode_rate, outlook);
+  if (free_axes_.any_overdamped) {
     // two exponentials, each of which falls: what bounds it at one time bounds it ever after
     const Quad fast_mode = fast_mode_ * own.left * own.left_between;
-    add_bounds(fast_mode, free_.fast_mode_rate, outlook);
-    const Quad acceleration =
-        mode * free_.mode_rate * free_.mode_rate + fast_mode * free_.fast_mode_rate * free_.fast_mode_rate;
-    outlook.acceleration = free_.modes ? acceleration : second;
+    add_bounds(fast_mode, free_axes_.fast_mode_rate, outlook);
+    const Quad acceleration = mode * free_axes_.mode_rate * free_axes_.mode_rate +
+                              fast_mode * free_axes_.fast_mode_rate * free_axes_.fast_mode_rate;
+    outlook.acceleration = free_axes_.modes ? acceleration : second;
   }
   outlook.acceleration += motion.driven_acceleration;
-  if (free_.any_near) {
+  if (free_axes_.any_near) {
     // derivative n after a time s: exp(-a s) (q_n cosh(r s) + (q_n+1 + a q_n) sinh(r s)/r), the last below 1/2a
-    const Quad third = -free_.pull * first - 2.0 * free_.decay * second,
-               fourth = -free_.pull * second - 2.0 * free_.decay * third;
-    add_size(first, free_.near, outlook.rate);
-    add_size(second + free_.decay * first, free_.near_most, outlook.rate);
-    add_size(second, free_.near, outlook.second);
-    add_size(third + free_.decay * second, free_.near_most, outlook.second);
-    add_size(third, free_.near, outlook.third);
-    add_size(fourth + free_.decay * third, free_.near_most, outlook.third);
+    const Quad third = -free_axes_.pull * first - 2.0 * free_axes_.decay * second,
+               fourth = -free_axes_.pull * second - 2.0 * free_axes_.decay * third;
+    add_size(first, free_axes_.near, outlook.rate);
+    add_size(second + free_axes_.decay * first, free_axes_.near_most, outlook.rate);
+    add_size(second, free_axes_.near, outlook.second);
+    add_size(third + free_axes_.decay * second, free_axes_.near_most, outlook.second);
+    add_size(third, free_axes_.near, outlook.third);
+    add_size(fourth + free_axes_.decay * third, free_axes_.near_most, outlook.third);
   }
 }
 

@@ -7,7 +7,7 @@ namespace vibratory_alignment {
 using Pair = double __attribute__((vector_size(16)));
 /// Their alignment is told: of a structure of them the compiler believes 16 bytes where it compiles without AVX2.
 using Quad = double __attribute__((vector_size(32), aligned(32)));
-using QuadMask = long long __attribute__((vector_size(32), aligned(32)));  ///< -1 for those that are chosen, else 0
+using QuadMask = long long __attribute__((vector_size(32), aligned(32)));  ///< for choosing (-1 or 0) and ordering
 
 /// For what has to become part of a function that is compiled for AVX2: also of a lambda, after its parameters.
 #define VIBRATORY_ALIGNMENT_INLINE __attribute__((always_inline)) inline

@@ -67,7 +67,7 @@ VIBRATORY_ALIGNMENT_INLINE void sin_cos(const Quad& angle, Quad& sin, Quad& cos)
   }
 }
 
-/// The same of any angles >= 0, of which none is above `largest`.
+/// sin_cos() of angles >= 0 of any size, of which none is above `largest`.
 VIBRATORY_ALIGNMENT_INLINE void sin_cos_of_any(const Quad& angle, double largest, Quad& sin, Quad& cos) {
   sin_cos(angle, sin, cos);
   if (!(largest > kLargestAngle)) return;

@@ -10,7 +10,6 @@ namespace vibratory_alignment {
 namespace {
 
 using Numbers = decltype(BernsteinForm::b);
-using Lanes = long long __attribute__((vector_size(32)));
 
 constexpr std::size_t kRows = kMaxOrder + 1;
 using Table = std::array<std::array<double, kRows>, kRows>;
@@ -49,7 +48,7 @@ struct Neighbours {
 #pragma GCC unroll 12
         for (int i = 0; i <= last; ++i) {
           const Quad after = i + 1 < kBlocks ? block[i + 1 < kBlocks ? i + 1 : i] : Quad{};
-          const Quad next = __builtin_shuffle(block[i], after, Lanes{1, 2, 3, 4});
+          const Quad next = __builtin_shuffle(block[i], after, QuadMask{1, 2, 3, 4});
           block[i] = factor * (block[i] + next);
         }
       }

@@ -49,7 +49,7 @@ class DriveSeries {
   /// as they are known; the next ones and the last of sine and cosine.
   struct Wave {
     double frequency = NAN;  ///< of a sine
-    alignas(32) Series terms{};
+    Series terms{};
     double s = 0.0, c = 0.0, s_before = 0.0, c_before = 0.0;
   };
 

@@ -78,6 +78,7 @@ class FlightView {
   Vec2 acceleration() const { return {outlook_.acceleration[FreeAxes::kX], outlook_.acceleration[FreeAxes::kY]}; }
   /// What a bound on |x'| and one on |y'| make together, and the like.
   static double sum_of(const Quad& bounds) { return bounds[FreeAxes::kX] + bounds[FreeAxes::kY]; }
+  /// Of the axes' values that of phi.
   static double turning(const Quad& of) { return of[FreeAxes::kPhi]; }
 
   const System& system_;
