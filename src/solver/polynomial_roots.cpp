@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "solver/bernstein.h"
 #include "solver/solver.h"
@@ -151,6 +152,19 @@ int deflate(Series& g, int order, int zeros) {
 /// Conditions on a part of [0, 1].
 using Forms = std::array<BernsteinForm, kMaxConditions>;
 
+/// Time for which a condition that holds at the start has done so, by its rate there; one that does not rise has held
+/// before.
+double held_for(const BernsteinForm& form) {
+  const double rise = form.degree > 0 ? form.degree * (form.b[1] - form.b[0]) : 0.0;
+  return rise > 0.0 ? form.at_start() / rise : std::numeric_limits<double>::infinity();
+}
+
+/// Of two conditions that hold at the start, whether the first became true later.
+bool holds_for_less(const BernsteinForm& a, const BernsteinForm& b) {
+  const double time_a = held_for(a), time_b = held_for(b);
+  return time_a < time_b || (time_a == time_b && a.at_start() < b.at_start());
+}
+
 /// First rise of g above zero on a part of [0, 1], on which it is `form` and starts at or below zero, or kNoRoot.
 double first_rise_on_part(const Series& g, int order, const BernsteinForm& form, const Part& part) {
   const auto* const first =
@@ -181,7 +195,7 @@ Entry first_entry_on_part(const Conditions& g, const std::array<int, kMaxConditi
   if (undecided == 0) {
     // all hold from here on, the last of them by a last digit that it had not just before
     for (int i = 1; i < g.count; ++i)
-      if (forms[i].at_start() < forms[last].at_start()) last = i;
+      if (holds_for_less(forms[i], forms[last])) last = i;
     return {part.start, last};
   }
   if (undecided == 1) {

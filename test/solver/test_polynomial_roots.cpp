@@ -374,5 +374,27 @@ TEST(FirstEntry, inside_already_is_now) {
   EXPECT_EQ(first_entry(conditions, 1, 1.0).time, 0.0);
 }
 
+// Inside from the start, by what the step before was wrong by: through the face that was crossed last, however little
+// another condition, which is about to fail, still holds by.
+TEST(FirstEntry, inside_already_came_in_by_the_condition_that_has_held_for_the_shortest_time) {
+  for (const double left : {1e-3, 1e-9, 1e-14})
+    for (const int first : {0, 1}) {
+      Conditions conditions;
+      conditions.count = 3;
+      for (Series& g : conditions.g) g = {};
+      Series &leaves = conditions.g[static_cast<std::size_t>(first)],
+             &entered = conditions.g[static_cast<std::size_t>(1 - first)], &before = conditions.g[2];
+      leaves[0] = left;
+      leaves[1] = -8.0;
+      entered[0] = 40.0 * left;
+      entered[1] = 0.2;
+      before[0] = 10.0 * left;
+      before[1] = 1e-3;
+      const Entry entry = first_entry(conditions, 1, 1.0);
+      EXPECT_EQ(entry.time, 0.0) << left;
+      EXPECT_EQ(entry.last, 1 - first) << left;
+    }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
