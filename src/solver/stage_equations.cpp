@@ -243,6 +243,7 @@ double StageEquations::correct(const Stages& residual, double h) {
 bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   evaluate_drives(drives_->form.data(), drives_->direction.data(), drives_->count, h * stage_table().node, drive_);
   modes_.set(h, start_jacobian_);
+  if (modes_.passes_over_growth()) return false;
   layer_.set(modes_, h, start_jacobian_, start_forces_);
   set_rounding(h);
   guess(h);

@@ -37,6 +37,7 @@ void StageModes::set(double h, const ForceJacobian& jacobian) {
       determinant.real += term.real;
       determinant.imaginary += term.imaginary;
     }
+    passes_over_growth_ = determinant.real[0] <= 0.0;
     const Quad size = determinant.real * determinant.real + determinant.imaginary * determinant.imaginary;
     const Complex over{determinant.real / size, -determinant.imaginary / size};
     for (auto& row : inverse_)

@@ -23,6 +23,10 @@ class StageModes {
   /// (I - h lambda_0 f_v - h^2 lambda_0^2 f_q)^-1 for the real eigenvalue.
   const Eigen::Matrix3d& filter() const { return filter_; }
 
+  /// True when a motion that grows is too fast for the step: the method would damp it. The determinant of the matrix of
+  /// filter() is 1 for h = 0 and passes through zero at h lambda_0 = 1/rate.
+  bool passes_over_growth() const { return passes_over_growth_; }
+
   /// Change of the accelerations that takes out a residual f - a.
   VIBRATORY_ALIGNMENT_INLINE void correction(const Stages& residual, Stages& correction) const;
 
@@ -41,6 +45,7 @@ class StageModes {
   Complex z_, z_squared_;                            ///< h lambda, h^2 lambda^2
   std::array<std::array<Complex, 3>, 3> inverse_{};  ///< rows
   Eigen::Matrix3d filter_;
+  bool passes_over_growth_ = false;
 };
 
 VIBRATORY_ALIGNMENT_INLINE void StageModes::correction(const Stages& residual, Stages& correction) const {

@@ -81,5 +81,29 @@ TEST_F(StageModesTest, filter_is_that_of_the_real_mode) {
   EXPECT_LT((product - Eigen::Matrix3d::Identity()).norm(), 1e-14);
 }
 
+// What grows exponentially is followed by a step that is short for it, and damped by a longer one; what is damped or
+// rings may be passed over at any rate.
+TEST(StageModes, tell_growth_that_is_too_fast_for_the_step) {
+  const double h = 0.1, rate = 1.0 / (h * collocation().eigenvalue[0].real());
+  const auto passes_over_growth = [&](double by_position, double by_velocity) {
+    ForceJacobian jacobian;
+    jacobian.by_position = jacobian.by_velocity = Eigen::Matrix3d::Zero();
+    jacobian.by_position(1, 1) = by_position;
+    jacobian.by_velocity(1, 1) = by_velocity;
+    jacobian.by_position(0, 2) = 1e3;
+    StageModes modes;
+    modes.set(h, jacobian);
+    return modes.passes_over_growth();
+  };
+  EXPECT_FALSE(passes_over_growth(0.0, 0.9 * rate));
+  EXPECT_TRUE(passes_over_growth(0.0, 1.1 * rate));
+  EXPECT_FALSE(passes_over_growth(0.9 * rate * rate, 0.0));
+  EXPECT_TRUE(passes_over_growth(1.1 * rate * rate, 0.0));
+  for (const double faster : {1.0, 1e3, 1e12}) {
+    EXPECT_FALSE(passes_over_growth(0.0, -faster * rate));
+    EXPECT_FALSE(passes_over_growth(-faster * rate * rate, 0.0));
+  }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
