@@ -113,6 +113,13 @@ void pin_limit(const System& system, const Segment& segment, Site site, SitePins
   if (std::abs(t) >= (1.0 - kAtLimit) * most) (t > 0.0 ? pins.hold_plus : pins.hold_minus) = 1;
 }
 
+/// True when no other contact sticks: which of several slides, and which way, hangs on them all.
+bool sticks_alone(const Segment& segment, Site site) {
+  return std::none_of(
+      segment.loaded.begin(), segment.loaded.begin() + segment.loaded_count,
+      [&](const ContactSeries& other) { return other.site != site && slip_of(segment, other) == Slip::stick; });
+}
+
 /// True when T of the only contact runs through the limit that it has reached at the segment's end, so fast that it
 /// cannot stay within: no choice is left but to slide against it. Nothing else happens at that instant.
 bool breaks_clearly(const System& system, const Segment& segment, const FoundEvents& events, const SitePins& pins) {
@@ -203,7 +210,7 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         if (contact.slip != Slip::stick) break;
         if (!events.parts) pin_limit(system, segment, site, pins);
         // after an implicit step what N does at once, faster than the step, must not decide
-        if ((segment.coarse && (pins.hold_plus > 0 || pins.hold_minus > 0)) ||
+        if ((segment.coarse && sticks_alone(segment, site) && (pins.hold_plus > 0 || pins.hold_minus > 0)) ||
             breaks_clearly(system, segment, events, pins)) {
           contact.slip = pins.hold_plus > 0 ? Slip::minus : Slip::plus;
           pins.slip = 2;
