@@ -1,4 +1,5 @@
 // The scenes of open/, whose faults are known (README.md "Open faults"): they are no worse than their first lines say.
+// Those of mended/ break nothing any more.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <string>
 
 #include "model/scene_loader.h"
+#include "trial/make_solver.h"
 #include "verdict.h"
 
 namespace vibratory_alignment::hunt {
@@ -39,6 +41,23 @@ TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
     }
     for (const Fault& fault : verdict.faults)
       EXPECT_EQ(to_string(fault.invariant), known) << name << ": " << fault.detail;
+    ++seen;
+  }
+  EXPECT_GT(seen, 0);
+}
+
+TEST(MendedFaults, break_nothing_any_more) {
+  int seen = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(MENDED_FAULTS)) {
+    Scene scene = load_scene_file(entry.path());
+    for (const char* solver : {"implicit", "auto", kImplicitAlone}) {
+      scene.solver.name = solver;
+      const Verdict verdict = judge(scene, Range::wild);
+      EXPECT_TRUE(verdict.has_start);
+      EXPECT_EQ(verdict.refusal, "") << entry.path() << " " << solver;
+      for (const Fault& fault : verdict.faults)
+        ADD_FAILURE() << entry.path() << " " << solver << ": " << to_string(fault.invariant) << ", " << fault.detail;
+    }
     ++seen;
   }
   EXPECT_GT(seen, 0);

@@ -1,9 +1,11 @@
 #include "trace.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
+#include "../support/touch_point.h"
 #include "mechanics/system.h"
 #include "segment_checks.h"
 #include "trial/make_solver.h"
@@ -20,6 +22,51 @@ bool ends_with_touch(const Segment& segment) {
     if (segment.events[static_cast<std::size_t>(i)].kind == EventKind::touch) return true;
   return false;
 }
+
+/// How far each point has been from the face that it left, since it left it.
+class Hops {
+ public:
+  explicit Hops(const System& system) : system_(system) {}
+
+  void follow(const Segment& segment) {
+    for (std::size_t i = 0; i < kSiteCount; ++i) {
+      if (segment.contacts[i].touching())
+        hops_[i] = {segment.contacts[i].face, 0.0};
+      else if (hops_[i].left != Face::none)
+        hops_[i].height = std::max(hops_[i].height, distance(segment, static_cast<Site>(i), hops_[i].left));
+    }
+  }
+
+  /// True when every touch at the segment's end is one of the face that the point left, after a hop no higher than
+  /// this.
+  bool end_below(double height, const Segment& segment) const {
+    for (int i = 0; i < segment.event_count; ++i) {
+      const Event& event = segment.events[static_cast<std::size_t>(i)];
+      const Hop& hop = hops_[static_cast<std::size_t>(event.site)];
+      if (event.kind == EventKind::touch && !(hop.left == event.face && hop.height <= height)) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Hop {
+    Face left = Face::none;
+    double height = 0.0;
+  };
+
+  /// Largest distance of the point from the face during the segment.
+  double distance(const Segment& segment, Site site, Face face) const {
+    double most = 0.0;
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+      const State q = share < 1.0 ? state_at(segment, share * segment.duration) : segment.end;
+      most = std::max(most, -test::touch_point(system_, q, {site, face}).depth);
+    }
+    return most;
+  }
+
+  const System& system_;
+  std::array<Hop, kSiteCount> hops_{};
+};
 
 /// FNV-1a.
 class Digest {
@@ -49,8 +96,11 @@ Trace run_trial(const Scene& scene, bool checked, bool merges) {
   Trace trace;
   Simulation simulation(scene);
   const System system = make_system(scene);
+  const double lowest_hop = scene.solver.tolerance * (scene.part.half_width + scene.part.base_distance);
+  Hops hops(system);
   while (simulation.advance()) {
     const Segment& segment = simulation.segment();
+    if (merges) hops.follow(segment);
     trace.energy_noise += energy_noise(system, segment);
     for (const State& q : {segment.begin, segment.end}) {
       const double turn = std::abs(q.omega) * (system.half_width + system.base_distance);
@@ -58,9 +108,10 @@ Trace run_trial(const Scene& scene, bool checked, bool merges) {
     }
     if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
     if (!ends_with_touch(segment)) continue;
-    // a point that an implicit step has left beside its face may touch several times at once
+    // a point that an implicit step has left beside its face may touch several times at once, and the ring that such
+    // steps leave makes or spares a hop lower than the tolerance
     const double since = trace.touches.empty() ? INFINITY : segment.end_time() - trace.touches.back().time;
-    if (merges && since <= kSameTime) continue;
+    if (merges && (since <= kSameTime || hops.end_below(lowest_hop, segment))) continue;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
   }

@@ -32,7 +32,8 @@ constexpr std::size_t kMaxTouches = 5;
 /// True with the solvers whose steps leave errors up to the tolerance.
 bool takes_implicit_steps(const Scene& scene);
 
-/// Runs the trial; `checked`: every segment is held against the invariants; `merges`: touches at once count as one.
+/// Runs the trial; `checked`: every segment is held against the invariants; `merges`: touches at once count as one, and
+/// those after a hop lower than the tolerance not at all.
 Trace run_trial(const Scene& scene, bool checked, bool merges);
 inline Trace run_trial(const Scene& scene, bool checked) {
   return run_trial(scene, checked, takes_implicit_steps(scene));
