@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -16,10 +15,12 @@
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/output_roles.h"
 #include "cli/picture_format.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
 #include "cli/script.h"
+#include "cli/temporary_file.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
 #include "model/solver_choice.h"
@@ -172,6 +173,7 @@ std::optional<AccuracyReference> run_study(const Scene& scene, const AccuracyCom
 
 int run_accuracy(const AccuracyCommandOptions& options) {
   const std::string file = find_scene(options.scene);
+  refuse_overwriting({{"the scene", file}}, {{"--csv", options.csv}, {"--plot", options.plot}});
   YAML::Node tree = read_yaml_file(file);
   for (const std::string& setting : options.settings) apply_setting(tree, setting);
   const Scene scene = load_scene(tree, file, options.settings);
@@ -196,11 +198,10 @@ int run_accuracy(const AccuracyCommandOptions& options) {
     csv->commit();
   }
   if (picture) {
-    const std::string table = picture->temporary() + ".csv";
-    write_csv(table, table, scene, runs, *reference);
-    require_script("plot_accuracy.py", {table, picture->temporary(), "--format", format, "--title", scene.name},
+    const TemporaryFile table(options.plot);
+    write_csv(table.path(), table.path(), scene, runs, *reference);
+    require_script("plot_accuracy.py", {table.path(), picture->temporary(), "--format", format, "--title", scene.name},
                    "--plot");
-    std::filesystem::remove(table);
     picture->commit();
   }
   return kExitRan;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "cli/calibration_log.h"
 #include "cli/calibration_report.h"
@@ -17,10 +18,13 @@
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/output_roles.h"
 #include "cli/scene_path.h"
+#include "cli/suite_inputs.h"
 #include "model/scene_loader.h"
 #include "study/calibration.h"
 #include "study/calibration_file.h"
+#include "study/fact_suite.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -70,8 +74,17 @@ auto with_refusals(const Action& action) {
   }
 }
 
+/// Throws UsageError for an output that would overwrite an input or the other output.
+void check_outputs(const CalibrateCommandOptions& options, const Calibration& calibration) {
+  std::vector<NamedFile> inputs = suite_inputs(load_fact_suite(calibration.facts_file, find_scene));
+  inputs.push_back({"the calibration", calibration.source});
+  refuse_overwriting(inputs, {{"--report", options.report}, {"--log", options.log}});
+}
+
 int run_calibrate(const CalibrateCommandOptions& options) {
   const Calibration calibration = with_refusals([&] { return load_calibration(options.file); });
+  with_refusals([&] { check_outputs(options, calibration); });
+  const InterruptGuard interrupt;
   std::unique_ptr<OutputPath> report;
   if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);
 
@@ -82,7 +95,6 @@ int run_calibrate(const CalibrateCommandOptions& options) {
   }
 
   ProgressLines lines;
-  const InterruptGuard interrupt;
   CalibrationOptions run;
   run.threads = options.threads;
   run.find_scene = find_scene;

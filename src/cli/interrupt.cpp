@@ -5,7 +5,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM};
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t g_signal = 0;
 
@@ -19,7 +19,7 @@ void remember(int signal) {
 InterruptGuard::InterruptGuard() {
   g_signal = 0;
   for (const int signal : kSignals) {
-    // A shell starts background jobs with SIGINT ignored; that stays so.
+    // A shell starts background jobs with SIGINT ignored, and nohup any with SIGHUP; that stays so.
     if (std::signal(signal, remember) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }

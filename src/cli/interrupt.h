@@ -1,9 +1,9 @@
-// Ctrl-C during a run: the run ends at the next step instead of dying with half-written files.
+// Ctrl-C, or the end of the terminal, during a run: the run ends at the next step instead of dying with half-written files.
 #pragma once
 
 namespace vibratory_alignment {
 
-/// While it lives, SIGINT and SIGTERM only set a flag. A second signal ends the process at once. One at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second signal ends the process at once. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

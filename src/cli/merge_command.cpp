@@ -4,16 +4,16 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "cli/errors.h"
+#include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/output_roles.h"
 #include "cli/sweep_head.h"
 
 namespace vibratory_alignment {
@@ -111,22 +111,26 @@ ShardFiles open_shards(const std::vector<std::string>& paths) {
 }
 
 int run_merge(const MergeCommandOptions& options) {
-  std::error_code error;
-  for (const std::string& shard : options.shards)
-    if (shard == options.out || std::filesystem::equivalent(shard, options.out, error))
-      throw UsageError(options.out + ": is one of the shards; it is not overwritten");
+  std::vector<NamedFile> inputs;
+  for (const std::string& shard : options.shards) inputs.push_back({"one of the shards", shard});
+  refuse_overwriting(inputs, {{"OUT", options.out}});
   const ShardFiles shards = open_shards(options.shards);
   const SweepHead whole = {shards.front()->head().fingerprint, shards.front()->head().trials, Shard()};
 
+  const InterruptGuard interrupt;
   OutputPath output("OUT", options.out);
   std::ofstream file(output.temporary(), std::ios::binary);
   file << head_text(whole) << '\n' << shards.front()->header() << '\n';
   std::string line;
-  for (std::size_t trial = 0; trial < whole.trials && file; ++trial) {
+  for (std::size_t trial = 0; trial < whole.trials && file && interrupt.signal() == 0; ++trial) {
     shards[trial % shards.size()]->read_row(trial, line);
     file << line << '\n';
   }
   file.close();
+  if (interrupt.signal() != 0) {
+    std::fprintf(stderr, "align: interrupted; nothing is written\n");
+    return 128 + interrupt.signal();
+  }
   if (!file) throw OutputError(output.path(), std::strerror(errno));
   for (const auto& shard : shards) shard->check_end();
   output.commit();

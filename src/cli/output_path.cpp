@@ -28,43 +28,57 @@ bool leads_to(int descriptor, const std::string& path) {
          stream.st_ino == file.st_ino;
 }
 
+/// "TARGET.part", made unless it is there. Throws std::system_error.
+std::string kept_file(const std::string& target) {
+  const std::string path = target + ".part";
+  std::FILE* const file = std::fopen(path.c_str(), "ab");
+  if (file == nullptr) throw std::system_error(errno, std::generic_category(), path);
+  std::fclose(file);
+  return path;
+}
+
 }  // namespace
 
 bool is_stdout(const std::string& path) { return leads_to(STDOUT_FILENO, path); }
 
 OutputPath::OutputPath(const std::string& option, const std::string& path, Unfinished unfinished)
-    : path_(path), target_(path), unfinished_(unfinished) {
+    : path_(path), target_(path) {
   if (path.empty()) throw UsageError(option + ": the name of the file is empty");
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) refuse(option, path, std::strerror(EISDIR));
   const bool exists = fs::exists(status);
   if (exists && access(path.c_str(), W_OK) != 0) refuse(option, path, std::strerror(errno));
-  if (exists && !fs::is_regular_file(status)) {
-    temporary_ = target_;
-    return;
-  }
+  if (exists && !fs::is_regular_file(status)) return;
   if (exists && (is_stdout(path) || leads_to(STDERR_FILENO, path)))
     refuse(option, path, "it is the file that the command's own output goes to");
   if (exists) {
     const fs::path resolved = fs::canonical(path, error);
     if (!error) target_ = resolved.string();
   }
-  temporary_ = target_ + ".part";
-  std::FILE* const file = std::fopen(temporary_.c_str(), unfinished == Unfinished::kept ? "ab" : "wb");
-  if (file == nullptr) refuse(option, path, std::strerror(errno));
-  std::fclose(file);
+  try {
+    if (unfinished == Unfinished::kept)
+      kept_ = kept_file(target_);
+    else
+      own_.emplace(target_);
+  } catch (const std::system_error& failure) {
+    refuse(option, path, failure.what());
+  }
 }
 
-OutputPath::~OutputPath() {
-  if (!committed_ && unfinished_ == Unfinished::removed && !is_direct()) std::remove(temporary_.c_str());
+const std::string& OutputPath::temporary() const {
+  if (own_) return own_->path();
+  return is_direct() ? target_ : kept_;
 }
 
 void OutputPath::commit() {
-  if (!is_direct() && std::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    throw OutputError(path_, std::strerror(errno));
+  try {
+    if (own_) own_->rename(target_);
+  } catch (const std::system_error& failure) {
+    throw OutputError(path_, failure.what());
   }
-  committed_ = true;
+  if (!kept_.empty() && std::rename(kept_.c_str(), target_.c_str()) != 0)
+    throw OutputError(path_, kept_ + ": " + std::strerror(errno));
 }
 
 }  // namespace vibratory_alignment

@@ -12,6 +12,7 @@
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/output_roles.h"
 #include "cli/picture_format.h"
 #include "cli/script.h"
 
@@ -48,15 +49,13 @@ int run_plot(const PlotCommandOptions& options) {
   check_readable(options.trial);
   if (!options.node.empty() && std::filesystem::path(options.trial).extension() != ".bag")
     throw UsageError("--node: only a bag has nodes");
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options.trial, options.picture, ignored))
-    throw UsageError("PICTURE: " + options.picture + ": is the trial; it is not overwritten");
+  refuse_overwriting({{"the trial", options.trial}}, {{"PICTURE", options.picture}});
+  const InterruptGuard interrupt;
   OutputPath picture("PICTURE", options.picture);
   std::vector<std::string> arguments = {options.trial, picture.temporary(), "--format", format};
   if (options.si) arguments.emplace_back("--si");
   if (!options.node.empty()) arguments.insert(arguments.end(), {"--node", options.node});
   if (!options.title.empty()) arguments.insert(arguments.end(), {"--title", options.title});
-  const InterruptGuard interrupt;
   const int status = run_script("plot_trial.py", arguments, "plot");
   if (interrupt.signal() != 0) return 128 + interrupt.signal();
   if (status == 0) picture.commit();

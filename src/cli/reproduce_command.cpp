@@ -19,9 +19,11 @@
 #include "cli/figure_files.h"
 #include "cli/interrupt.h"
 #include "cli/ledger_report.h"
+#include "cli/output_roles.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
 #include "cli/script.h"
+#include "cli/suite_inputs.h"
 #include "model/scene_loader.h"
 #include "study/fact_suite.h"
 
@@ -90,6 +92,18 @@ FactSuite load(const ReproduceCommandOptions& options) {
   }
 }
 
+/// Throws UsageError for a folder in which a file of the suite would be overwritten.
+void check_outputs(const ReproduceCommandOptions& options, const FactSuite& suite) {
+  const std::filesystem::path folder = options.output;
+  std::vector<NamedFile> outputs;
+  for (const char* name : {"ledger.md", "ledger.json", "figures.json"})
+    outputs.push_back({"--output", (folder / name).string()});
+  for (const Figure& figure : suite.book.figures)
+    for (const char* ending : {".csv", ".svg", ".png"})
+      outputs.push_back({"figure " + figure.name, (folder / (figure.name + ending)).string()});
+  refuse_overwriting(suite_inputs(suite), outputs);
+}
+
 void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -122,6 +136,7 @@ Tables run(const FactSuite& suite, FactRunOptions& run_options, const InterruptG
 
 int run_command(const ReproduceCommandOptions& options) {
   const FactSuite suite = load(options);
+  check_outputs(options, suite);
   FactRunOptions run_options;
   run_options.settings.all = options.settings;
   if (options.quick) run_options.thinning = kQuick;

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -15,6 +13,7 @@
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
+#include "cli/output_roles.h"
 #include "cli/progress_bar.h"
 #include "cli/row_text.h"
 #include "cli/scene_path.h"
@@ -57,13 +56,9 @@ std::string check_shard(const std::string& text) {
 
 Study load(const SweepCommandOptions& options) {
   const std::string file = find_study(options.study);
-  std::error_code error;
-  if (options.csv == file || std::filesystem::equivalent(options.csv, file, error))
-    throw UsageError("--csv: " + options.csv + ": is the study; it is not overwritten");
   try {
     const Study study = load_study(file, find_scene);
-    if (std::filesystem::equivalent(options.csv, study.scene_source, error))
-      throw UsageError("--csv: " + options.csv + ": is the scene; it is not overwritten");
+    refuse_overwriting({{"the study", file}, {"the scene", study.scene_source}}, {{"--csv", options.csv}});
     if (options.settings.empty()) return study;
     const Study changed = with_settings(study, options.settings);
     refuse_without_scenes(changed);

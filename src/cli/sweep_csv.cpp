@@ -42,6 +42,12 @@ std::string start_of(const std::string& path, std::size_t bytes) {
   return text;
 }
 
+/// Whether a sweep, and nothing else, may have begun it.
+bool may_be_of_a_sweep(const std::string& path) {
+  const std::string mark = "# align sweep ", found = start_of(path, mark.size());
+  return found == mark.substr(0, found.size());
+}
+
 bool holds_rows_of_a_sweep(const std::string& path) {
   WholeLines lines(path);
   std::string line;
@@ -84,6 +90,7 @@ void SweepCsv::close() {
 
 void SweepCsv::begin_or_continue(const std::string& path, bool resume, const SeeRow& see_row) {
   if (!resume) {
+    if (!may_be_of_a_sweep(file())) refuse(file(), "is in the way: rows come into a file of this name; remove it");
     if (holds_rows_of_a_sweep(file()))
       refuse(file(), "has rows of a sweep that did not end: continue it with --resume, or remove the file");
     fs::resize_file(file(), 0);

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "cli/command.h"
@@ -17,6 +15,7 @@
 #include "cli/interrupt.h"
 #include "cli/json_report.h"
 #include "cli/output_path.h"
+#include "cli/output_roles.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
 #include "cli/summary.h"
@@ -152,16 +151,7 @@ Scene load(const TrialCommandOptions& options, const std::string& file) {
 
 /// Throws UsageError for a name that would overwrite the scene or another output.
 void check_outputs(const TrialCommandOptions& options, const std::string& scene_file) {
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code error;
-    return a == b || std::filesystem::equivalent(a, b, error);
-  };
-  for (const std::string* path : {&options.csv, &options.bag}) {
-    if (!path->empty() && same(*path, scene_file)) throw UsageError(*path + ": is the scene; it is not overwritten");
-  }
-  if (!options.csv.empty() && same(options.csv, options.bag)) {
-    throw UsageError(options.csv + ": --csv and --bag name the same file");
-  }
+  refuse_overwriting({{"the scene", scene_file}}, {{"--csv", options.csv}, {"--bag", options.bag}});
   if (options.json && is_stdout(options.csv)) throw UsageError("--json: stdout has the rows of --csv");
 }
 
@@ -227,12 +217,12 @@ void show(ProgressBar& progress, double time, double end) {
   });
 }
 
-/// Runs to the end or to a signal, whose number it returns.
-int simulate(Simulation& simulation, Recorder& recorder, double interval, double end, ProgressBar& progress) {
-  const InterruptGuard interrupt;
+/// Runs to the end or to a signal.
+void simulate(Simulation& simulation, Recorder& recorder, double interval, double end, const InterruptGuard& interrupt,
+              ProgressBar& progress) {
   if (!recorder.wanted()) {
     while (interrupt.signal() == 0 && simulation.advance()) show(progress, simulation.time(), end);
-    return interrupt.signal();
+    return;
   }
   Sampler sampler(simulation, interval, true);
   Sample sample;
@@ -240,7 +230,6 @@ int simulate(Simulation& simulation, Recorder& recorder, double interval, double
     recorder.write(sample);
     show(progress, sample.time, end);
   }
-  return interrupt.signal();
 }
 
 int run_trial(const TrialCommandOptions& options) {
@@ -255,18 +244,18 @@ int run_trial(const TrialCommandOptions& options) {
   const bool sampled = !options.csv.empty() || !options.bag.empty();
   const double interval = sampled ? sample_interval(options, scene, end) : end;
   Simulation simulation = make_simulation(scene, simulation_options);
+  const InterruptGuard interrupt;
   Recorder recorder(options, scene);
 
   const bool rows_on_stdout = is_stdout(options.csv);
-  int signal = 0;
   {
     ProgressBar progress(!options.json && !rows_on_stdout && stdout_is_terminal());
-    signal = simulate(simulation, recorder, interval, end, progress);
+    simulate(simulation, recorder, interval, end, interrupt, progress);
   }
-  if (signal != 0) {
+  if (interrupt.signal() != 0) {
     std::fprintf(stderr, "align: interrupted at t = %.6g; nothing is reported or written\n",
                  simulation.time() * time_unit);
-    return 128 + signal;
+    return 128 + interrupt.signal();
   }
   const TrialResult result = simulation.result();
   const bool failed = result.outcome == Outcome::failed;

@@ -1,6 +1,9 @@
 """`align sweep --shard` and `align merge`: the shards of a sweep make the file of the whole one, and nothing else does."""
 
 import os
+import signal
+import subprocess
+import time
 import unittest
 
 from sweep_test_case import SMALL_STUDY_TRIALS, SweepTestCase
@@ -43,7 +46,7 @@ class MergeTest(SweepTestCase):
     def assert_no_merge(self, names, *words):
         self.assert_refused(["merge", "out.csv"] + names, *words)
         self.assertFalse(os.path.exists(self.path("out.csv")))
-        self.assertFalse(os.path.exists(self.path("out.csv.part")))
+        self.assertEqual([name for name in os.listdir(self.directory) if name.endswith(".part")], [])
 
     def test_what_is_wrong_with_the_shards_is_told_by_name(self):
         names = self.shards(3)
@@ -80,6 +83,26 @@ class MergeTest(SweepTestCase):
         before = self.bytes_of(names[0])
         self.assert_refused(["merge", names[0]] + names, names[0], "not overwritten")
         self.assertEqual(self.bytes_of(names[0]), before)
+
+    def test_an_interrupt_leaves_no_file(self):
+        names = self.shards(2)
+        lines = self.bytes_of(names[1]).splitlines(keepends=True)
+        os.remove(self.path(names[1]))
+        os.mkfifo(self.path(names[1]))
+        process = subprocess.Popen([self.align_path, "merge", "out.csv"] + names, cwd=self.directory,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.addCleanup(process.kill)
+        before = len(os.listdir(self.directory))
+        with open(self.path(names[1]), "wb", buffering=0) as shard:
+            shard.write(b"".join(lines[:3]))
+            while process.poll() is None and len(os.listdir(self.directory)) == before:
+                time.sleep(0.01)
+            process.send_signal(signal.SIGTERM)
+            shard.write(lines[3])
+            output, message = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+        self.assertEqual((output, message), ("", "align: interrupted; nothing is written\n"))
+        self.assertEqual(len(os.listdir(self.directory)), before)
 
     def test_a_full_disk_is_told(self):
         process = self.align("merge", "/dev/full", *self.shards(2))

@@ -175,10 +175,6 @@ class RefusalTest(SweepTestCase):
         self.assert_refused(["sweep", study, "--csv", "/dev/null", "--resume"], "/dev/null")
         self.assert_refused(["sweep", study, "--csv", "nosuch/out.csv"], "nosuch/out.csv")
 
-    def test_input_is_not_overwritten(self):
-        self.assert_refused(["sweep", self.study(), "--csv", "study.yaml"], "study.yaml", "not overwritten")
-        self.assert_refused(["sweep", self.study(), "--csv", "small.yaml"], "small.yaml", "not overwritten")
-
     def test_a_full_disk_is_told(self):
         process = self.align("sweep", self.study(), "--csv", "/dev/full")
         self.assertEqual(process.returncode, 1)

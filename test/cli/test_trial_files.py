@@ -157,23 +157,76 @@ class LostFileTest(AlignTestCase):
         process = self.align("trial", self.scene(), "--csv", "/dev/full")
         self.assertIn("No space left on device", process.stderr)
 
-    def test_interrupted_run_leaves_no_file_and_keeps_the_old_one(self):
-        self.write("run.csv", "old")
-        arguments = ["trial", self.scene(), "--until", "1e6", "--csv", "run.csv", "--sample", "0.01"]
+    def begin_endless(self, *arguments, command=()):
+        """A trial that runs until it is ended; its files have been begun when this returns."""
+        before = len(os.listdir(self.directory))
         process = subprocess.Popen(
-            [self.align_path] + arguments, cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE
-        )
-        while process.poll() is None and not os.path.exists(self.path("run.csv.part")):
+            list(command) + [self.align_path, "trial", "small.yaml", "--until", "1e6", "--sample", "0.01"]
+            + list(arguments), cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        while process.poll() is None and len(os.listdir(self.directory)) == before:
             time.sleep(0.01)
-        time.sleep(0.1)
-        process.send_signal(signal.SIGINT)
-        stdout, stderr = process.communicate(timeout=30)
-        self.assertEqual(process.returncode, 130)
-        self.assertEqual(stdout, b"")
-        self.assertIn(b"interrupted", stderr)
-        self.assertEqual(sorted(os.listdir(self.directory)), ["run.csv", "small.yaml"])
-        with open(self.path("run.csv")) as file:
-            self.assertEqual(file.read(), "old")
+        return process
+
+    def text_of(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
+
+    def test_interrupted_run_leaves_no_file_and_keeps_the_old_one(self):
+        self.scene()
+        self.write("run.csv", "old")
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(number):
+                process = self.begin_endless("--csv", "run.csv", "--bag", "run.bag")
+                process.send_signal(number)
+                stdout, stderr = process.communicate(timeout=30)
+                self.assertEqual(process.returncode, 128 + number)
+                self.assertEqual(stdout, b"")
+                self.assertIn(b"interrupted", stderr)
+                self.assertEqual(sorted(os.listdir(self.directory)), ["run.csv", "small.yaml"])
+                self.assertEqual(self.text_of("run.csv"), "old")
+
+    def test_a_run_under_nohup_outlives_its_terminal(self):
+        self.scene()
+        process = self.begin_endless("--csv", "run.csv", command=["nohup"])
+        process.send_signal(signal.SIGHUP)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            process.wait(timeout=0.5)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+
+    def test_what_else_is_called_like_an_unfinished_file_stays(self):
+        for name in ("run.csv.part", "run.bag.part"):
+            self.write(name, "mine")
+        for scene in (self.scene(), self.scene("fails.yaml", solver={"step_limit": 10})):
+            self.align("trial", scene, "--csv", "run.csv", "--bag", "run.bag")
+            for name in ("run.csv.part", "run.bag.part"):
+                self.assertEqual(self.text_of(name), "mine")
+        self.assertTrue(self.text_of("run.csv").startswith("t,x,y"))
+
+    def test_two_runs_at_a_time_make_whole_files(self):
+        self.scene()
+        alone = self.align("trial", "small.yaml", "--csv", "alone.csv", "--sample", "1e-3", "--until", "2")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        endless = self.begin_endless("--csv", "run.csv")
+        other = self.align("trial", "small.yaml", "--csv", "run.csv", "--sample", "1e-3", "--until", "2")
+        self.assertEqual(other.returncode, 0, other.stderr)
+        endless.terminate()
+        endless.communicate(timeout=30)
+        self.assertEqual(self.text_of("run.csv"), self.text_of("alone.csv"))
+        self.assertEqual(sorted(os.listdir(self.directory)), ["alone.csv", "run.csv", "small.yaml"])
+
+    def test_a_file_has_the_rights_that_the_umask_leaves(self):
+        for mask, rights in ((0o022, 0o644), (0o077, 0o600)):
+            process = self.align("trial", self.scene(), "--csv", "run.csv", preexec_fn=lambda: os.umask(mask))
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertEqual(os.stat(self.path("run.csv")).st_mode & 0o777, rights)
+
+    def test_names_the_file_that_cannot_be_made(self):
+        name = "n" * 250 + ".csv"  # a name as long as there can be, and none longer
+        message = self.assert_refused(["trial", self.scene(), "--csv", name], "--csv: " + name, "File name too long")
+        self.assertRegex(message, name + r"\.\d+\.part: File name too long")
 
     def test_failed_run_leaves_no_file_and_keeps_the_old_ones(self):
         path = self.scene(solver={"step_limit": 10})
