@@ -26,6 +26,7 @@
 #include "cli/suite_inputs.h"
 #include "model/scene_loader.h"
 #include "study/fact_suite.h"
+#include "study/study_refusals.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -146,6 +147,10 @@ int run_command(const ReproduceCommandOptions& options) {
   std::map<std::string, Study> studies;
   try {
     studies = studies_to_run(suite, run_options);
+    for (const auto& [name, study] : studies) {
+      refuse_settings_of_varied_keys(study, options.settings);
+      refuse_without_scenes(study);
+    }
     make_folder(options.output);
     tables = run(suite, run_options, interrupt);
   } catch (const SceneError& refusal) {

@@ -24,6 +24,7 @@
 #include "study/design.h"
 #include "study/fingerprint.h"
 #include "study/study_file.h"
+#include "study/study_refusals.h"
 #include "study/sweep.h"
 
 namespace vibratory_alignment {
@@ -60,6 +61,7 @@ Study load(const SweepCommandOptions& options) {
     const Study study = load_study(file, find_scene);
     refuse_overwriting({{"the study", file}, {"the scene", study.scene_source}}, {{"--csv", options.csv}});
     if (options.settings.empty()) return study;
+    refuse_settings_of_varied_keys(study, options.settings);
     const Study changed = with_settings(study, options.settings);
     refuse_without_scenes(changed);
     return changed;

@@ -376,23 +376,34 @@ bool on_one_way(const std::string& a, const std::string& b) {
   return more.compare(0, less.size(), less) == 0 && (more.size() == less.size() || more[less.size()] == '.');
 }
 
-/// Tells in a fault which of the settings has put there what is wrong.
-void name_settings(const std::vector<std::string>& settings, std::string& fault) {
-  const std::string place = fault.substr(0, fault.find(": "));
-  for (const std::string& setting : settings)
-    if (on_one_way(place, setting.substr(0, setting.find('=')))) fault += " (set by " + setting + ")";
+bool is_replaced(const std::vector<ValueOrigin>& origins, std::size_t i) {
+  return std::any_of(origins.begin() + static_cast<std::ptrdiff_t>(i) + 1, origins.end(),
+                     [&](const ValueOrigin& later) { return later.key_path == origins[i].key_path; });
 }
 
 }  // namespace
 
 SceneError::SceneError(std::string source, std::vector<std::string> faults)
-    : std::runtime_error(message(source, faults)), faults_(std::move(faults)) {}
+    : std::runtime_error(message(source, faults)), source_(std::move(source)), faults_(std::move(faults)) {}
+
+void name_origins(const std::vector<ValueOrigin>& origins, std::vector<std::string>& faults) {
+  for (std::string& fault : faults) {
+    const std::string place = fault.substr(0, fault.find(": "));
+    for (std::size_t i = 0; i < origins.size(); ++i)
+      if (on_one_way(place, origins[i].key_path) && !is_replaced(origins, i))
+        fault += " (set by " + origins[i].place + ")";
+  }
+}
 
 Scene load_scene(const YAML::Node& tree, const std::string& source, const std::vector<std::string>& settings) {
   TreeReader::Faults faults;
   Scene scene = SceneReader(tree, faults).read();
-  for (std::string& fault : faults) name_settings(settings, fault);
-  if (!faults.empty()) throw SceneError(source, faults);
+  if (!faults.empty()) {
+    std::vector<ValueOrigin> origins;
+    for (const std::string& setting : settings) origins.push_back({setting.substr(0, setting.find('=')), setting});
+    name_origins(origins, faults);
+    throw SceneError(source, faults);
+  }
   scene.source = source;
   if (scene.name.empty()) scene.name = std::filesystem::path(source).stem().string();
   return scene;

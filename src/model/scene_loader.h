@@ -18,11 +18,23 @@ namespace vibratory_alignment {
 class SceneError : public std::runtime_error {
  public:
   SceneError(std::string source, std::vector<std::string> faults);
+  /// The file, or what else is said in its place.
+  const std::string& source() const { return source_; }
   const std::vector<std::string>& faults() const { return faults_; }
 
  private:
+  std::string source_;
   std::vector<std::string> faults_;
 };
+
+/// What has put a value at a key path of a scene: a setting, or a place in another file.
+struct ValueOrigin {
+  std::string key_path, place;
+};
+
+/// Tells in each fault "(set by PLACE)" if a value of these, above or below it, may be what is wrong. Of several at one
+/// key path the last counts.
+void name_origins(const std::vector<ValueOrigin>& origins, std::vector<std::string>& faults);
 
 /// Reads a YAML file into a tree. Throws SceneError when it is missing, unreadable, not a file, empty or not YAML.
 YAML::Node read_yaml_file(const std::string& path);

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "model/scene_loader.h"
+
 namespace vibratory_alignment {
 
 /// The values of one key of the scene: those of a list, or a range.
@@ -44,6 +46,7 @@ struct Study {
   std::string source;                       ///< file that it was read from, for messages
   std::string scene_source;                 ///< file of the scene
   std::shared_ptr<const YAML::Node> scene;  ///< tree of the scene, with what the study sets for every trial
+  std::vector<ValueOrigin> origins;         ///< of the values in it that are not from the scene's file
   std::vector<Dimension> dimensions;        ///< the first changes slowest; samples change fastest
   std::optional<Samples> samples;           ///< set if and only if a dimension is sampled
 };

@@ -2,7 +2,6 @@
 #include "study/study_file.h"
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,7 +11,7 @@
 #include "model/scene_loader.h"
 #include "model/tree_reader.h"
 #include "study/design.h"
-#include "study/trial_scenes.h"
+#include "study/study_refusals.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -210,21 +209,6 @@ std::string scene_file(const std::string& scene, const std::string& study, const
 
 }  // namespace
 
-void refuse_without_scenes(const Study& study) {
-  TrialScenes scenes(study);
-  const std::size_t count = trial_count(study);
-  std::exception_ptr refusal;
-  for (const std::size_t index : {std::size_t{0}, count / 2, count - 1}) {
-    try {
-      scenes.at(index);
-      return;
-    } catch (const SceneError&) {
-      if (!refusal) refusal = std::current_exception();
-    }
-  }
-  std::rethrow_exception(refusal);
-}
-
 Study load_study(const std::string& path, const FindScene& find_scene) {
   TreeReader::Faults faults;
   StudyReader reader(read_yaml_file(path), faults);
@@ -234,6 +218,7 @@ Study load_study(const std::string& path, const FindScene& find_scene) {
   if (study.name.empty()) study.name = std::filesystem::path(path).stem().string();
   study.scene_source = scene_file(reader.scene(), path, find_scene);
   study.scene = std::make_shared<const YAML::Node>(scene_tree(study.scene_source, reader, path));
+  for (const auto& [key_path, value] : reader.settings()) study.origins.push_back({key_path, path + ": set"});
   refuse_without_scenes(study);
   return study;
 }
@@ -241,7 +226,10 @@ Study load_study(const std::string& path, const FindScene& find_scene) {
 Study with_settings(const Study& study, const std::vector<std::string>& settings) {
   Study changed = study;
   YAML::Node tree = YAML::Clone(*study.scene);
-  for (const std::string& setting : settings) apply_setting(tree, setting);
+  for (const std::string& setting : settings) {
+    apply_setting(tree, setting);
+    changed.origins.push_back({setting.substr(0, setting.find('=')), setting});
+  }
   changed.scene = std::make_shared<const YAML::Node>(tree);
   return changed;
 }

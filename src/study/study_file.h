@@ -13,12 +13,8 @@ namespace vibratory_alignment {
 using FindScene = std::function<std::string(const std::string& name)>;
 
 /// Reads the study and its scene. `find_scene` is asked for a scene that is no file beside the study.
-/// Throws SceneError with every fault at once, "source: key.path: value: what is allowed"; also when neither the first,
-/// the middle nor the last trial has a scene that load_scene accepts: a key path or the scene itself is then wrong.
+/// Throws SceneError with every fault at once, "source: key.path: value: what is allowed"; also as refuse_without_scenes.
 Study load_study(const std::string& path, const FindScene& find_scene);
-
-/// Throws what is wrong with the scene of the first trial if the middle and the last one have none either.
-void refuse_without_scenes(const Study& study);
 
 /// The study with further settings for every trial, "key.path=value" as apply_setting() takes them. Throws SceneError.
 Study with_settings(const Study& study, const std::vector<std::string>& settings);

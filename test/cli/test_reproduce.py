@@ -131,6 +131,15 @@ figures:
         self.assertEqual(len(self.ledger()[0]["measures"]), 2)
 
     def test_refuses_what_it_does_not_know(self):
+        for setting in ("gripper.pressing_force=0.3", "excitation.phase=nonsense"):
+            process = self.reproduce("--set", setting)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("--set %s: " % setting, process.stderr)
+            self.assertIn("small.yaml varies %s:" % setting.split("=")[0], process.stderr)
+        process = self.reproduce("--set", "part.half_width=-1")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("(set by part.half_width=-1)", process.stderr)
+        self.assertFalse(os.path.exists(self.path("out")))
         process = self.reproduce("fig9")
         self.assertEqual(process.returncode, 2)
         self.assertIn("FIGURE: fig9: there is no such figure; there are motion, curve", process.stderr)

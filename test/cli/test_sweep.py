@@ -87,6 +87,12 @@ class TableTest(SweepTestCase):
         self.assertEqual(rows[2]["end_time"], "")
         self.assertRegex(text, r"refused +2 +50.00 %\n +first: trial 2: slot.clearance: 0")
 
+    def test_refused_trials_are_rows_wherever_they_stand(self):
+        study = self.study(vary=[{"slot.clearance": [0, 0.1, 0, 0.12, 0]}], without=["samples"])
+        self.sweep(study, "--csv", "out.csv")
+        outcomes = [row["outcome"] == "refused" for row in self.rows("out.csv")]
+        self.assertEqual(outcomes, [True, False, True, False, True])
+
     def test_null_is_fine_where_the_scene_has_no_such_key(self):
         solvers = {"solver.name": ["event", "rk4"], "solver.step": [None, 1e-3]}
         self.sweep(self.study(vary=[solvers], without=["samples"]), "--csv", "out.csv")
@@ -162,7 +168,15 @@ class RefusalTest(SweepTestCase):
         self.assert_refused(["sweep", "nosuch"], "nosuch", "no such file")
         self.assert_refused(["sweep", self.directory], "directory")
         self.assert_refused(["sweep", self.study(), "--set", "initial.x.y=3"], "--set initial.x.y=3")
-        self.assert_refused(["sweep", self.study(), "--set", "foo.bar=1"], "the study is refused", "foo", "unknown key")
+        self.assert_refused(["sweep", self.study(), "--set", "foo.bar=1"], "the study is refused", "foo", "unknown key",
+                            "(set by foo.bar=1)")
+        self.assert_refused(["sweep", self.study(set={"part.foo": 1})], "part.foo: 1: unknown key",
+                            "(set by %s: set)" % self.path("study.yaml"))
+
+    def test_what_is_varied_cannot_be_set(self):
+        for value in ("0.3", "nonsense"):
+            self.assert_refused(["sweep", self.study(), "--set", "initial.x=" + value], "--set initial.x=" + value,
+                                "study.yaml varies initial.x")
 
     def test_faults_of_the_call(self):
         study = self.study()

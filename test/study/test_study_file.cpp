@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "model/scene_loader.h"
 #include "study/design.h"
+#include "study/study_refusals.h"
 #include "study_text.h"
 
 namespace vibratory_alignment {
@@ -103,9 +105,69 @@ TEST(StudyFile, KeysThatNoSceneHasAreRefusedAtOnce) {
   EXPECT_NE(faults[0].find("initial.z: 0.2: unknown key"), std::string::npos) << faults[0];
 }
 
+TEST(StudyFile, AKeyThatNoSceneHasIsRefusedWhereverManyTrialsAreLeft) {
+  const std::vector<std::string> faults =
+      faults_of("vary: [{initial.z: {from: 0, to: 1, count: 100000}}, {friction.coefficient: [-1, 0.2]}]");
+  ASSERT_EQ(faults.size(), 1u) << "what is wrong with some trials alone is for their rows to say";
+  EXPECT_NE(faults[0].find("initial.z: 0: unknown key"), std::string::npos) << faults[0];
+}
+
 // Some points of a study may have no scene: that is for the sweep to say.
 TEST(StudyFile, SomeRefusedTrialsDoNoHarm) {
   EXPECT_TRUE(faults_of("vary: {slot.clearance: {from: 0, to: 0.1, count: 3}}").empty());
+  EXPECT_TRUE(faults_of("vary: {slot.clearance: [0, 0.1, 0, 0.1, 0]}").empty());
+  EXPECT_TRUE(faults_of("vary: {slot.clearance: [0, 0, 0, 0, -1, 0.1, 0]}").empty());
+  // none of so many that all could be looked at is fine, but for reasons of their own
+  EXPECT_TRUE(faults_of("vary: [{slot.clearance: [0, 0.1], part.half_width: [0.7, -1]}, "
+                        "{initial.x: {from: 0.2, to: 0.3, count: 2000}}]")
+                  .empty());
+}
+
+TEST(StudyFile, NothingButRefusedTrialsAreRefused) {
+  const std::vector<std::string> faults = faults_of("vary: {slot.clearance: [0, -1, wide]}");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].find("slot.clearance: 0: must be a number > 0"), 0u) << faults[0];
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StudyFile, FaultsOfTheSceneNameThePlaceThatHasSetThem) {
+  const auto ends_with = [](const std::string& text, const std::string& end) {
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  };
+  std::string message = message_of([] { study_of("set: {part.foo: 1}"); });
+  EXPECT_NE(message.find("part.foo: 1: unknown key"), std::string::npos) << message;
+  EXPECT_TRUE(ends_with(message, "study.yaml: set)")) << message;
+  message = message_of([] { study_of("set: {slot.clearance: 0.1}\nvary: {slot.clearance: [0, -1]}"); });
+  EXPECT_TRUE(ends_with(message, "study.yaml: vary)")) << message;
+  EXPECT_EQ(message.find("study.yaml: set"), std::string::npos) << message;
+  message = message_of([] {
+    refuse_without_scenes(with_settings(study_of("set: {slot.clearance: 0.1}"), {"slot.clearance=-2"}));
+  });
+  EXPECT_TRUE(ends_with(message, "(set by slot.clearance=-2)")) << message;
+  EXPECT_EQ(message.find("study.yaml: set"), std::string::npos) << message;
+  message = message_of([] { study_of("vary: {initial.x: [0.2]}", "units: dimensionless"); });
+  EXPECT_EQ(message.find("set by study"), std::string::npos) << message;
+}
+
+TEST(StudyFile, SettingsOfVariedKeysAreRefused) {
+  const Study study = study_of(
+      "vary: [{initial.x: [0.2, 0.3]}, {initial.phi: {from: -0.01, to: 0.01, count: 3, as: offset}},"
+      " {gripper.stiffness.phi: [50, 60]}]");
+  for (const char* setting : {"initial.x=0.25", "initial.x=nonsense", "initial.x.y=1"}) {
+    const std::string message = message_of([&] { refuse_settings_of_varied_keys(study, {"part.inertia=0.3", setting}); });
+    EXPECT_EQ(message.find("--set " + std::string(setting) + ": "), 0u) << message;
+    EXPECT_NE(message.find("study.yaml varies initial.x"), std::string::npos) << message;
+  }
+  EXPECT_NO_THROW(refuse_settings_of_varied_keys(
+      study, {"initial.phi=0.02", "initial.xx=1", "gripper.stiffness={x: 0.05}", "initial.y=0.9"}));
 }
 
 TEST(StudyFile, OfNoSceneIsRefused) {
