@@ -201,7 +201,11 @@ int run_accuracy(const AccuracyCommandOptions& options) {
     const TemporaryFile table(options.plot);
     write_csv(table.path(), table.path(), scene, runs, *reference);
     require_script("plot_accuracy.py", {table.path(), picture->temporary(), "--format", format, "--title", scene.name},
-                   "--plot");
+                   "--plot", interrupt);
+    if (interrupt.signal() != 0) {
+      std::fprintf(stderr, "align: interrupted; no picture is written\n");
+      return 128 + interrupt.signal();
+    }
     picture->commit();
   }
   return kExitRan;

@@ -1,6 +1,7 @@
 #include "cli/plot_command.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -56,8 +57,11 @@ int run_plot(const PlotCommandOptions& options) {
   if (options.si) arguments.emplace_back("--si");
   if (!options.node.empty()) arguments.insert(arguments.end(), {"--node", options.node});
   if (!options.title.empty()) arguments.insert(arguments.end(), {"--title", options.title});
-  const int status = run_script("plot_trial.py", arguments, "plot");
-  if (interrupt.signal() != 0) return 128 + interrupt.signal();
+  const int status = run_script("plot_trial.py", arguments, "plot", interrupt);
+  if (interrupt.signal() != 0) {
+    std::fprintf(stderr, "align: interrupted; no picture is written\n");
+    return 128 + interrupt.signal();
+  }
   if (status == 0) picture.commit();
   return status;
 }

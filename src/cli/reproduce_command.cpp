@@ -165,9 +165,16 @@ int run_command(const ReproduceCommandOptions& options) {
   write_text(folder / "ledger.md", ledger_markdown(suite.book, results));
   write_text(folder / "ledger.json", ledger_json(suite.book, results));
   write_figure_files(folder, suite.book, studies, tables);
-  if (!options.no_pictures) require_script("plot_figures.py", {folder.string()}, "pictures");
+  // before the pictures, which may fail or be interrupted
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;
   if (!std::cout) throw OutputError("stdout", "the ledger is lost");
+  if (!options.no_pictures) {
+    require_script("plot_figures.py", {folder.string()}, "pictures", interrupt);
+    if (interrupt.signal() != 0) {
+      std::fprintf(stderr, "align: interrupted; not all pictures are drawn\n");
+      return 128 + interrupt.signal();
+    }
+  }
 
   const std::vector<std::string> missed = missed_unexpectedly(suite.book, results);
   if (!options.check || missed.empty()) return kExitRan;

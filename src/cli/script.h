@@ -4,14 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "cli/interrupt.h"
+
 namespace vibratory_alignment {
 
 /// Runs the script `name` that is installed beside this program, waits for it, and returns its exit status: 0 it did
-/// what it is for; otherwise it has said on stderr why not. Ended by a signal: 128 + its number.
+/// what it is for; otherwise it has said on stderr why not. Ended by a signal: 128 + its number. A signal that has come
+/// to `interrupt` is passed on to it; what it returns means nothing then.
 /// Throws std::runtime_error that begins with `purpose` when it is missing or cannot be run.
-int run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose);
+int run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose,
+               const InterruptGuard& interrupt);
 
-/// The same for a script that has no reason to fail. Throws std::runtime_error when it does.
-void require_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose);
+/// The same for a script that has no reason to fail but an interrupt. Throws std::runtime_error when it does.
+void require_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose,
+                    const InterruptGuard& interrupt);
 
 }  // namespace vibratory_alignment

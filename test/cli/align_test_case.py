@@ -100,6 +100,22 @@ class AlignTestCase(unittest.TestCase):
         process.wait(timeout=30)
         return text
 
+    def interrupted_while_drawing(self, number, *arguments):
+        """Sends the signal to a run whose drawing takes for ever, and to nothing else; returns the finished process."""
+        os.makedirs(self.path("modules"), exist_ok=True)
+        begun = self.path("modules/begun")
+        self.write("modules/matplotlib.py", "import time\nopen(%r, 'w').close()\ntime.sleep(600)\n" % begun)
+        process = subprocess.Popen(
+            [self.align_path] + list(arguments), cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            env=dict(os.environ, ROS_PACKAGE_PATH=SOURCE_ROOT, PYTHONPATH=self.path("modules")), universal_newlines=True)
+        self.addCleanup(process.kill)
+        while process.poll() is None and not os.path.exists(begun):
+            time.sleep(0.01)
+        process.send_signal(number)
+        output, messages = process.communicate(timeout=30)
+        shutil.rmtree(self.path("modules"))
+        return subprocess.CompletedProcess(process.args, process.returncode, output, messages)
+
     def assert_refused(self, arguments, *words):
         """align ends with 2, prints nothing on stdout and every word on stderr, in words fit for people."""
         process = self.align(*arguments)

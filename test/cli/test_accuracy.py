@@ -90,6 +90,16 @@ class AccuracyTest(AlignTestCase):
         self.assertIn("interrupted", text)
         self.assertEqual(os.listdir(self.directory), [])
 
+    def test_an_interrupt_while_the_picture_is_drawn_keeps_the_table(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                process = self.interrupted_while_drawing(
+                    number, "accuracy", self.scene(), "--solvers", "event", "--csv", "a.csv", "--plot", "a.png")
+                self.assertEqual(process.returncode, 128 + number)
+                self.assertIn("align: interrupted; no picture is written", process.stderr)
+                self.assertEqual(sorted(os.listdir(self.directory)), ["a.csv", "small.yaml"])
+                self.assertIn("For an error of 1e-06 use event", process.stdout)
+
     def test_refusals(self):
         self.assert_refused(["accuracy", self.scene(), "--solvers", "magic"], "magic", "event", "ode")
         self.assert_refused(["accuracy", self.path("none.yaml")], "none.yaml")

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import signal
 import struct
 import unittest
 import xml.etree.ElementTree
@@ -126,6 +127,13 @@ class PlotTest(AlignTestCase):
         self.assertEqual(process.returncode, 1)
         self.assertIn("No space left on device", process.stderr)
         self.assertNotIn("Traceback", process.stderr)
+
+    def test_an_interrupt_leaves_no_picture(self):
+        before = sorted(os.listdir(self.directory))
+        process = self.interrupted_while_drawing(signal.SIGINT, "plot", self.csv, self.path("run.png"))
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        self.assertIn("align: interrupted; no picture is written", process.stderr)
+        self.assertEqual(sorted(os.listdir(self.directory)), before)
 
     def test_missing_matplotlib_is_named(self):
         os.mkdir(self.path("modules"))

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import signal
 import unittest
 
 from align_test_case import SMALL_SCENE, AlignTestCase
@@ -129,6 +130,23 @@ figures:
             self.assertEqual(process.returncode, 0, process.stderr)
             self.assertEqual([fact["id"] for fact in self.ledger()], ids)
         self.assertEqual(len(self.ledger()[0]["measures"]), 2)
+
+    def test_the_ledger_is_there_whatever_becomes_of_the_pictures(self):
+        self.reproduce("--no-pictures")  # writes the files that it reads
+        for name in os.listdir(self.path("out")):
+            os.remove(self.path("out/" + name))
+        process = self.interrupted_while_drawing(signal.SIGTERM, "reproduce", "--facts", "facts.yaml", "--output", "out")
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+        self.assertIn("1 of 2 facts met", process.stdout)
+        self.assertIn("align: interrupted; not all pictures are drawn", process.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("out"))),
+                         ["curve.csv", "figures.json", "ledger.json", "ledger.md", "motion.csv"])
+        os.mkdir(self.path("modules"))
+        self.write("modules/matplotlib.py", "raise ImportError('No module named matplotlib')")
+        process = self.align("reproduce", "--facts", "facts.yaml", "--output", "out",
+                             environment={"PYTHONPATH": self.path("modules")})
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("1 of 2 facts met", process.stdout)
 
     def test_refuses_what_it_does_not_know(self):
         for setting in ("gripper.pressing_force=0.3", "excitation.phase=nonsense"):
