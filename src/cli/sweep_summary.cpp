@@ -6,10 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "study/metrics.h"
+
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kClass = 1e-3;
+constexpr std::size_t kMostDurations = 100'000;
+constexpr double kClass = 1e-4;
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -29,9 +32,19 @@ void SweepSummary::add(std::size_t trial, const std::string& outcome, double dur
   }
   if (std::isnan(duration)) return;
   ++aligned_;
-  ++durations_[std::lround(std::floor(std::log(std::max(duration, 1e-300)) / kClass))];
   least_ = std::min(least_, duration);
   greatest_ = std::max(greatest_, duration);
+  if (classes_.empty() && durations_.size() < kMostDurations) {
+    durations_.push_back(duration);
+    return;
+  }
+  for (const double earlier : durations_) count(earlier);
+  durations_.clear();
+  count(duration);
+}
+
+void SweepSummary::count(double duration) {
+  ++classes_[std::lround(std::floor(std::log(std::max(duration, 1e-300)) / kClass))];
 }
 
 std::string SweepSummary::share_of_all(std::size_t count, const char* pattern) const {
@@ -56,18 +69,23 @@ std::string SweepSummary::text() const {
       text += format("%-12s first: trial %zu: ", "", outcomes.first_trial) + outcomes.first_reason + "\n";
   }
   if (aligned_ > 0) {
-    text += format("duration     least %.4g, quartiles %.4g, %.4g, %.4g, greatest %.4g\n", least_, quantile(0.25),
-                   quantile(0.5), quantile(0.75), greatest_);
+    text += format("duration     least %.4g, quartiles ", least_) + quartile(0.25) + ", " + quartile(0.5) + ", " +
+            quartile(0.75) + format(", greatest %.4g\n", greatest_);
   }
   return text;
 }
 
+std::string SweepSummary::quartile(double share) const {
+  // a class is too wide for a fourth digit
+  return classes_.empty() ? format("%.4g", quantile(durations_, share)) : format("%.3g", quantile_of_classes(share));
+}
+
 /// The middle of the class that the duration lies in below which there is this share of all.
-double SweepSummary::quantile(double share) const {
+double SweepSummary::quantile_of_classes(double share) const {
   const double wanted = share * static_cast<double>(aligned_);
   double passed = 0.0;
-  for (const auto& [number, count] : durations_) {
-    passed += static_cast<double>(count);
+  for (const auto& [number, size] : classes_) {
+    passed += static_cast<double>(size);
     if (passed >= wanted) return std::clamp(std::exp((static_cast<double>(number) + 0.5) * kClass), least_, greatest_);
   }
   return greatest_;
