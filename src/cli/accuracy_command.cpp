@@ -67,21 +67,21 @@ double own_setting(const Scene& scene, const AccuracyRun& run) {
   return run.fixed_step ? run.setting * output_units(scene).time : run.setting;
 }
 
-void print_heading(const Scene& scene, const AccuracyReference& reference) {
-  std::printf("%s to %.6g (dimensionless); reference %s, %s differs by %.1e%s\n\n", scene.name.c_str(),
+void print_heading(std::FILE* out, const Scene& scene, const AccuracyReference& reference) {
+  std::fprintf(out, "%s to %.6g (dimensionless); reference %s, %s differs by %.1e%s\n\n", scene.name.c_str(),
               reference.end_time, reference.method.c_str(), reference.second_method.c_str(), reference.agreement,
               scene.units == Units::si ? "; steps in s" : "");
-  std::printf("%-14s %9s %10s %10s %10s %11s %10s %9s %8s %10s\n", "solver", "setting", "pose", "force", "duration",
+  std::fprintf(out, "%-14s %9s %10s %10s %10s %11s %10s %9s %8s %10s\n", "solver", "setting", "pose", "force", "duration",
               "time [us]", "rhs", "steps", "events", "residual");
 }
 
-void print_row(const Scene& scene, const AccuracyRun& run) {
+void print_row(std::FILE* out, const Scene& scene, const AccuracyRun& run) {
   const double setting = own_setting(scene, run);
   if (!run.failure.empty()) {
-    std::printf("%-14s %9.1e %s\n", run.solver.c_str(), setting, run.failure.c_str());
+    std::fprintf(out, "%-14s %9.1e %s\n", run.solver.c_str(), setting, run.failure.c_str());
     return;
   }
-  std::printf("%-14s %9.1e %10.1e %10.1e %10s %11.1f %10ld %9ld %8ld %10.1e\n", run.solver.c_str(), setting,
+  std::fprintf(out, "%-14s %9.1e %10.1e %10.1e %10s %11.1f %10ld %9ld %8ld %10.1e\n", run.solver.c_str(), setting,
               run.pose_error, run.force_error, run.duration_error ? format("%.1e", *run.duration_error).c_str() : "-",
               1e6 * run.cpu_seconds, run.counts.rhs_evaluations, run.counts.steps, run.counts.events,
               run.energy_residual);
@@ -111,43 +111,43 @@ void write_csv(const std::string& path, const std::string& name, const Scene& sc
 }
 
 /// What `solver: {accuracy: ...}` makes of it, and how that went if it is among the runs.
-void print_choice(const Scene& scene, const std::vector<AccuracyRun>& runs, double error) {
+void print_choice(std::FILE* out, const Scene& scene, const std::vector<AccuracyRun>& runs, double error) {
   const std::string solver = solver_for_accuracy(scene);
   const double tolerance = tolerance_for_accuracy(error);
-  std::printf("  solver: {accuracy: %.0e} picks %s with a tolerance of %.1e", error, solver.c_str(), tolerance);
+  std::fprintf(out, "  solver: {accuracy: %.0e} picks %s with a tolerance of %.1e", error, solver.c_str(), tolerance);
   bool tried = false;
   for (const AccuracyRun& run : runs) {
     tried = tried || run.solver == solver;
     if (run.solver == solver && run.failure.empty() && std::abs(run.setting - tolerance) < 1e-6 * tolerance)
-      std::printf(": error %.1e, %.0f us", run.pose_error, 1e6 * run.cpu_seconds);
+      std::fprintf(out, ": error %.1e, %.0f us", run.pose_error, 1e6 * run.cpu_seconds);
   }
-  std::printf(tried ? ".\n" : ", which is not among these.\n");
+  std::fprintf(out, tried ? ".\n" : ", which is not among these.\n");
 }
 
 /// For each of a few errors the cheapest way, and the way to have one chosen.
-void print_advice(const Scene& scene, const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
-  std::printf("\n");
+void print_advice(std::FILE* out, const Scene& scene, const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
+  std::fprintf(out, "\n");
   for (const double error : {1e-3, 1e-6, 1e-9}) {
     if (error < reference.agreement) {
-      std::printf("For an error of %.0e: not known, the two references differ by more.\n", error);
+      std::fprintf(out, "For an error of %.0e: not known, the two references differ by more.\n", error);
       continue;
     }
     const AccuracyRun* run = cheapest_for(runs, error);
     if (run == nullptr) {
-      std::printf("For an error of %.0e: none of these keeps it.\n", error);
+      std::fprintf(out, "For an error of %.0e: none of these keeps it.\n", error);
     } else {
       const char* unit = run->fixed_step && scene.units == Units::si ? " s" : "";
-      std::printf("For an error of %.0e use %s with a %s of %.1e%s: it costs %.0f us.\n", error, run->solver.c_str(),
+      std::fprintf(out, "For an error of %.0e use %s with a %s of %.1e%s: it costs %.0f us.\n", error, run->solver.c_str(),
                   run->fixed_step ? "step" : "tolerance", own_setting(scene, *run), unit, 1e6 * run->cpu_seconds);
     }
-    print_choice(scene, runs, error);
+    print_choice(out, scene, runs, error);
   }
 }
 
 /// Reference and runs; what there is when a signal has come.
 std::optional<AccuracyReference> run_study(const Scene& scene, const AccuracyCommandOptions& options,
                                            const InterruptGuard& interrupt, std::vector<AccuracyRun>& runs) {
-  ProgressBar bar(stdout_is_terminal());
+  ProgressBar bar(stdout_is_terminal() && !is_stdout(options.csv));
   double share = 0.0;
   std::string words = "reference";
   unsigned asked = 0;
@@ -189,10 +189,12 @@ int run_accuracy(const AccuracyCommandOptions& options) {
     std::fprintf(stderr, "align: interrupted; no file is written\n");
     return 128 + interrupt.signal();
   }
-  print_heading(scene, *reference);
-  for (const AccuracyRun& run : runs) print_row(scene, run);
-  print_advice(scene, runs, *reference);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw OutputError("stdout", "the table is lost");
+  // stdout may have the rows of --csv
+  std::FILE* const out = is_stdout(options.csv) ? stderr : stdout;
+  print_heading(out, scene, *reference);
+  for (const AccuracyRun& run : runs) print_row(out, scene, run);
+  print_advice(out, scene, runs, *reference);
+  if (std::fflush(out) != 0 || std::ferror(out) != 0) throw OutputError("stdout", "the table is lost");
   if (csv) {
     write_csv(csv->temporary(), csv->path(), scene, runs, *reference);
     csv->commit();

@@ -134,7 +134,7 @@ int run_merge(const MergeCommandOptions& options) {
   if (!file) throw OutputError(output.path(), std::strerror(errno));
   for (const auto& shard : shards) shard->check_end();
   output.commit();
-  std::printf("%zu trials of %zu shards\n", whole.trials, shards.size());
+  std::fprintf(is_stdout(options.out) ? stderr : stdout, "%zu trials of %zu shards\n", whole.trials, shards.size());
   return kExitRan;
 }
 

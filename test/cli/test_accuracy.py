@@ -69,6 +69,15 @@ class AccuracyTest(AlignTestCase):
         for row in rows:
             self.assertLess(float(row["force_error"]), 1e-3, row["setting"])
 
+    def test_rows_alone_go_to_stdout(self):
+        process = self.align("accuracy", self.scene(), "--solvers", "event", "--csv", "/dev/stdout")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        rows = list(csv.reader(process.stdout.splitlines()))
+        self.assertEqual(rows[0][:3], ["solver", "kind", "setting"])
+        self.assertGreater(len(rows), 5)
+        self.assertEqual({(len(row), row[0]) for row in rows[1:]}, {(len(rows[0]), "event")})
+        self.assertIn("For an error of 1e-06 use event", process.stderr)
+
     def test_a_full_disk_is_told(self):
         with open("/dev/full", "w") as full:
             process = self.align("accuracy", self.scene(), "--solvers", "event", stdout=full)

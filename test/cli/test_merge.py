@@ -31,6 +31,13 @@ class MergeTest(SweepTestCase):
         # the merged file passes for the whole sweep
         self.assertIn("0 trials in", self.sweep("study.yaml", "--csv", "out.csv", "--resume"))
 
+    def test_rows_alone_go_to_stdout(self):
+        self.sweep("study.yaml", "--csv", "whole.csv")
+        process = self.align("merge", "/dev/stdout", *self.shards(2))
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.stdout, self.bytes_of("whole.csv").decode())
+        self.assertEqual(process.stderr, "%d trials of 2 shards\n" % SMALL_STUDY_TRIALS)
+
     def test_a_shard_has_its_trials_alone(self):
         self.sweep("study.yaml", "--csv", "out.csv", "--shard", "2/3")
         self.assertEqual([int(row["trial"]) for row in self.rows("out.csv")], list(range(1, SMALL_STUDY_TRIALS, 3)))
