@@ -15,6 +15,7 @@
 #include "cli/calibration_log.h"
 #include "cli/calibration_report.h"
 #include "cli/command.h"
+#include "cli/counted.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
@@ -55,8 +56,9 @@ class ProgressLines {
     if (now < next_) return;
     next_ = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kSecondsBetweenLines));
     const double seconds = std::chrono::duration<double>(now - begin_).count();
-    std::fprintf(stderr, "%6.0f s: %zu sets, %zu trials; best: shortfall %.3f, %zu facts met\n", seconds,
-                 progress.evaluations, progress.trials, progress.best_shortfall, progress.best_met);
+    std::fprintf(stderr, "%6.0f s: %s, %s; best: shortfall %.3f, %s met\n", seconds,
+                 counted(progress.evaluations, "set").c_str(), counted(progress.trials, "trial").c_str(),
+                 progress.best_shortfall, counted(progress.best_met, "fact").c_str());
   }
 
  private:

@@ -1,4 +1,5 @@
-// Ctrl-C, or the end of the terminal, during a run: the run ends at the next step instead of dying with half-written files.
+// Ctrl-C, or the end of the terminal, during a run: the run ends at the next step instead of dying with half-written
+// files.
 #pragma once
 
 namespace vibratory_alignment {

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/counted.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -54,7 +56,7 @@ json number_or_null(double value) { return std::isnan(value) ? json(nullptr) : j
 
 std::string count_text(const FactBook& book, const std::vector<FactResult>& results) {
   const auto met = std::count_if(results.begin(), results.end(), [](const FactResult& r) { return r.met; });
-  return std::to_string(met) + " of " + std::to_string(book.facts.size()) + " facts met";
+  return std::to_string(met) + " of " + counted(book.facts.size(), "fact") + " met";
 }
 
 /// Names of the facts that are met (or missed) and expected to be otherwise.

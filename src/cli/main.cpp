@@ -1,5 +1,6 @@
 // `align`, the command line of the package: picks the subcommand, turns exceptions into messages and exit status.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -16,6 +17,7 @@
 #include "cli/merge_command.h"
 #include "cli/plot_command.h"
 #include "cli/reproduce_command.h"
+#include "cli/set_option.h"
 #include "cli/sweep_command.h"
 #include "cli/trial_command.h"
 #include "model/nearest_word.h"
@@ -97,7 +99,10 @@ int run(int argc, char** argv) {
 
   if (argc > 1 && argv[1][0] != '-') check_command(argv[1]);
   try {
-    app.parse(argc, argv);
+    // CLI11 takes the last word first
+    std::vector<std::string> words = with_set_before_each({argv + 1, argv + argc});
+    std::reverse(words.begin(), words.end());
+    app.parse(words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return told(app.exit(error));
     std::string command = "align", unknown;

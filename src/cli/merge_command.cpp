@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/counted.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
 #include "cli/output_roles.h"
+#include "cli/row_text.h"
 #include "cli/sweep_head.h"
 
 namespace vibratory_alignment {
@@ -49,7 +51,10 @@ class ShardFile {
   const std::string& header() const { return header_; }
 
   /// The next whole line.
-  bool next(std::string& line) { return std::getline(file_, line) && !file_.eof(); }
+  bool next(std::string& line) {
+    ++line_number_;
+    return std::getline(file_, line) && !file_.eof();
+  }
 
   /// The row of a trial, which must be the next. Throws UsageError.
   void read_row(std::size_t trial, std::string& line) {
@@ -57,6 +62,9 @@ class ShardFile {
       refuse("ends before trial " + std::to_string(trial) + ": the sweep did not end; continue it with --resume");
     if (line.substr(0, line.find(',')) != std::to_string(trial))
       refuse("has another line where that of trial " + std::to_string(trial) + " should be: the file was changed");
+    if (cell_count(line) != cell_count(header_))
+      refuse("line " + std::to_string(line_number_) + " has " + counted(cell_count(line), "cell") + ", not " +
+             std::to_string(cell_count(header_)) + ": the file was changed");
   }
 
   /// Throws UsageError unless all has been read.
@@ -72,6 +80,7 @@ class ShardFile {
   std::ifstream file_;
   SweepHead head_;
   std::string header_;
+  std::size_t line_number_ = 0;  ///< of the line read last
 };
 
 using ShardFiles = std::vector<std::unique_ptr<ShardFile>>;
@@ -134,7 +143,8 @@ int run_merge(const MergeCommandOptions& options) {
   if (!file) throw OutputError(output.path(), std::strerror(errno));
   for (const auto& shard : shards) shard->check_end();
   output.commit();
-  std::fprintf(is_stdout(options.out) ? stderr : stdout, "%zu trials of %zu shards\n", whole.trials, shards.size());
+  std::fprintf(is_stdout(options.out) ? stderr : stdout, "%s of %s\n", counted(whole.trials, "trial").c_str(),
+               counted(shards.size(), "shard").c_str());
   return kExitRan;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/counted.h"
 #include "cli/errors.h"
 #include "cli/figure_files.h"
 #include "cli/interrupt.h"
@@ -23,6 +24,7 @@
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
 #include "cli/script.h"
+#include "cli/set_option.h"
 #include "cli/suite_inputs.h"
 #include "model/scene_loader.h"
 #include "study/fact_suite.h"
@@ -129,7 +131,7 @@ Tables run(const FactSuite& suite, FactRunOptions& run_options, const InterruptG
   };
   run_options.go_on = [&] {
     bar.update(static_cast<double>(done) / static_cast<double>(all),
-               [&] { return std::to_string(done) + " of " + std::to_string(all) + " trials"; });
+               [&] { return std::to_string(done) + " of " + counted(all, "trial"); });
     return interrupt.signal() == 0;
   };
   return run_fact_studies(suite, run_options);
@@ -202,10 +204,8 @@ std::function<int()> set_up_reproduce(CLI::App& app) {
   app.add_option("--facts", options->facts, "Another facts file than the one that comes with the package")
       ->check(file_name())
       ->type_name("FILE");
-  app.add_option("--set", options->settings,
-                 "Give a key of the scenes another value in all studies, as for\n`align trial`; can be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(app, options->settings,
+                 "Give keys of the scenes other values in all studies, as for\n`align trial`; can be repeated");
   return [options] { return run_command(*options); };
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/counted.h"
 #include "cli/errors.h"
 #include "cli/interrupt.h"
 #include "cli/output_path.h"
@@ -17,6 +18,7 @@
 #include "cli/progress_bar.h"
 #include "cli/row_text.h"
 #include "cli/scene_path.h"
+#include "cli/set_option.h"
 #include "cli/sweep_csv.h"
 #include "cli/sweep_head.h"
 #include "cli/sweep_summary.h"
@@ -141,11 +143,11 @@ Run run(const Study& study, const SweepCommandOptions& options, const Shard& sha
 
 std::string report(const Study& study, const SweepHead& head, const SweepSummary& summary, const Run& run) {
   char line[200];
-  std::string text = "Study        " + study.name + ", " + std::to_string(head.trials) + " trials";
+  std::string text = "Study        " + study.name + ", " + counted(head.trials, "trial");
   if (head.shard.count > 1)
     text += "; shard " + shard_text(head.shard) + " has " + std::to_string(summary.trials()) + " of them";
   text += "\n" + summary.text();
-  std::snprintf(line, sizeof line, "Run          %zu trials in %s, %.0f per second\n", run.trials,
+  std::snprintf(line, sizeof line, "Run          %s in %s, %.0f per second\n", counted(run.trials, "trial").c_str(),
                 duration_text(run.seconds).c_str(), run.rate());
   return text + line;
 }
@@ -164,8 +166,8 @@ int run_command(const SweepCommandOptions& options) {
 
   const Run result = run(study, options, head.shard, csv.get(), summary);
   if (!result.complete) {
-    std::fprintf(stderr, "align: interrupted after %zu of %zu trials", summary.trials(),
-                 shard_size(head.shard, head.trials));
+    std::fprintf(stderr, "align: interrupted after %zu of %s", summary.trials(),
+                 counted(shard_size(head.shard, head.trials), "trial").c_str());
     if (csv && !csv->is_direct())
       std::fprintf(stderr, "; %s keeps them. The same call with --resume goes on", csv->file().c_str());
     std::fprintf(stderr, "\n");
@@ -194,10 +196,8 @@ std::function<int()> set_up_sweep(CLI::App& app) {
   app.add_option("--shard", options->shard, "Run part I of N of the trials alone: I, I + N, I + 2N, ...")
       ->check(CLI::Validator(check_shard, ""))
       ->type_name("I/N");
-  app.add_option("--set", options->settings,
-                 "Give a key of the scene another value in all trials, as for\n`align trial`; can be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(app, options->settings,
+                 "Give keys of the scene other values in all trials, as for\n`align trial`; can be repeated");
   return [options] { return run_command(*options); };
 }
 

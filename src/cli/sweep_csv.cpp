@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/counted.h"
 #include "cli/errors.h"
+#include "cli/row_text.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -128,11 +130,14 @@ std::uintmax_t SweepCsv::take_over(const std::string& path, const SeeRow& see_ro
   std::string line;
   lines.next(line);
   lines.next(line);
-  const std::size_t count = shard_size(head_.shard, head_.trials);
+  const std::size_t count = shard_size(head_.shard, head_.trials), cells = cell_count(header_);
   while (lines.next(line)) {
     const std::string trial = std::to_string(head_.shard.number + rows_ * head_.shard.count);
     if (rows_ == count || line.substr(0, line.find(',')) != trial)
       refuse(path, "line " + std::to_string(rows_ + 3) + " is not that of trial " + trial + ": the file was changed");
+    if (cell_count(line) != cells)
+      refuse(path, "line " + std::to_string(rows_ + 3) + " has " + counted(cell_count(line), "cell") + ", not " +
+                       std::to_string(cells) + ": the file was changed");
     see_row(line);
     ++rows_;
   }

@@ -9,8 +9,8 @@
 
 namespace vibratory_alignment {
 
-/// Takes the same memory for any number of trials: of more than a hundred thousand that aligned, durations are counted in
-/// classes of 0.01 %.
+/// Takes the same memory for any number of trials: of more than a hundred thousand that aligned, durations are counted
+/// in classes of 0.01 %.
 class SweepSummary {
  public:
   /// `duration`: not a number unless the part aligned. `reason`: of a refused or failed trial.

@@ -18,6 +18,7 @@
 #include "cli/output_roles.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
+#include "cli/set_option.h"
 #include "cli/summary.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
@@ -37,7 +38,7 @@ constexpr char kTrialFooter[] = R"(Examples:
   align trial fig2                               the paper's alignment trial, which comes with the package
   align trial my_scene.yaml --json               a scene of your own, the result for a program
   align trial fig2 --csv run.csv --sample 0.01   motion and forces, every 0.01 and at every event
-  align trial fig2 --set friction.coefficient=0.3 --set excitation.frequency=25
+  align trial fig2 --set friction.coefficient=0.3 excitation.frequency=25
   align trial fig2 --until 5 --tolerance 1e-10   the motion until 5, more exactly
   align trial fig2 --accuracy 1e-6               solver and tolerance chosen for this error of the end
   align trial fig2 --solver rk4 --step 1e-4      the same by another solver (docs/solvers.md)
@@ -298,10 +299,8 @@ std::function<int()> set_up_trial(CLI::App& app) {
                  "outcome, at most to trial.time_limit of the scene")
       ->check(positive)
       ->type_name("TAU");
-  app.add_option("--set", options->settings,
-                 "Give a key of the scene another value, as in\n--set gripper.pressing_force=0.3; can be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
+  add_set_option(app, options->settings,
+                 "Give keys of the scene other values, as in\n--set gripper.pressing_force=0.3; can be repeated");
   app.add_flag("--json", options->json, "Print one JSON object instead of the summary, and nothing else");
   app.add_option("--csv", options->csv, "Write the motion and the forces to this file")
       ->check(file_name())

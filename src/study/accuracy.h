@@ -24,7 +24,7 @@ struct AccuracyReference {
   std::optional<double> aligned_time;
   /// Difference of the pose from that of a second method; errors below it say nothing.
   double agreement = 0.0;
-  std::string method, second_method;
+  std::string method;
 };
 
 /// One run of one solver.

@@ -13,7 +13,8 @@ namespace vibratory_alignment {
 using FindScene = std::function<std::string(const std::string& name)>;
 
 /// Reads the study and its scene. `find_scene` is asked for a scene that is no file beside the study.
-/// Throws SceneError with every fault at once, "source: key.path: value: what is allowed"; also as refuse_without_scenes.
+/// Throws SceneError with every fault at once, "source: key.path: value: what is allowed"; also as
+/// refuse_without_scenes.
 Study load_study(const std::string& path, const FindScene& find_scene);
 
 /// The study with further settings for every trial, "key.path=value" as apply_setting() takes them. Throws SceneError.

@@ -37,6 +37,11 @@ class AccuracyTest(AlignTestCase):
         _, rows = self.study("--solvers", "implicit,event")
         self.assertEqual({row["solver"] for row in rows}, {"implicit", "event"})
 
+    def test_says_how_good_the_reference_is(self):
+        text, rows = self.study("--solvers", "event")
+        agreement = "%.1e" % float(rows[0]["reference_agreement"])
+        self.assertIn("reference event, implicit steps alone differ by %s\n" % agreement, text)
+
     def test_ends_with_advice(self):
         text, _ = self.study("--solvers", "event")
         self.assertIn("For an error of 1e-06 use event with a tolerance of", text)

@@ -81,6 +81,10 @@ class MergeTest(SweepTestCase):
         self.assert_no_merge(names, names[1] + ": has more lines")
         self.write(names[1], b"\n".join(lines[:4] + lines[5:]))
         self.assert_no_merge(names, names[1] + ": has another line")
+        cells = lines[4].split(b",")
+        for row, count in ((cells[:-3], len(cells) - 3), (cells + [b""], len(cells) + 1)):
+            self.write(names[1], b"\n".join(lines[:4] + [b",".join(row)] + lines[5:]))
+            self.assert_no_merge(names, "%s: line 5 has %d cells, not %d" % (names[1], count, len(cells)))
 
     def test_the_whole_file_has_a_name(self):
         self.assert_refused(["merge", ""] + self.shards(2), "OUT", "empty")

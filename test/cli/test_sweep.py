@@ -116,6 +116,9 @@ class TableTest(SweepTestCase):
     def test_settings_hold_for_all_trials(self):
         self.sweep(self.study(), "--csv", "a.csv", "--set", "trial.time_limit=0.5")
         self.assertTrue(all(float(row["end_time"]) <= 0.5 for row in self.rows("a.csv")))
+        self.sweep("--set", "trial.time_limit=0.5", "friction.coefficient=0.3", self.study(), "--csv", "b.csv")
+        self.sweep(self.study(set={"trial.time_limit": 0.5, "friction.coefficient": 0.3}), "--csv", "c.csv")
+        self.assertEqual(self.rows("b.csv"), self.rows("c.csv"))
 
     def test_rows_alone_go_to_stdout(self):
         process = self.align("sweep", self.study(), "--csv", "/dev/stdout")
@@ -154,6 +157,11 @@ class SummaryTest(SweepTestCase):
                 file.write("%d," % trial + row % (1.2314 + 1e-8 * trial) + "\n")
         text = self.sweep(study, "--csv", "out.csv", "--resume")
         self.assertIn("duration     least 1.231, quartiles 1.23, 1.23, 1.23, greatest 1.232", text)
+
+    def test_counts_one_trial_as_one(self):
+        text = self.sweep(self.study(without=["vary", "samples"]))
+        self.assertIn("Study        study, 1 trial\n", text)
+        self.assertRegex(text, r"Run          1 trial in ")
 
     def test_is_all_there_is_without_a_file(self):
         text = self.sweep(self.study())

@@ -104,6 +104,17 @@ class ResumeTest(SweepTestCase):
                 ["sweep", "study.yaml", "--csv", "out.csv", "--resume"], "out.csv.part", "line", "was changed"
             )
 
+    def test_a_line_without_all_of_its_cells_is_refused(self):
+        lines = self.whole.split(b"\n")
+        cells = lines[9].split(b",")
+        part = b"\n".join(lines[:9] + [b",".join(cells[:3])] + lines[10:])
+        for name in ("out.csv.part", "out.csv"):
+            self.write(name, part)
+            self.assert_refused(["sweep", "study.yaml", "--csv", "out.csv", "--resume"],
+                                name + ": line 10 has 3 cells, not %d" % len(cells))
+            self.assertEqual(self.bytes_of(name), part)
+            os.remove(self.path(name))
+
     def test_another_file_is_refused_and_kept(self):
         self.write("out.csv", "my notes\n")
         self.assert_refused(["sweep", "study.yaml", "--csv", "out.csv", "--resume"], "out.csv", "cannot be continued")

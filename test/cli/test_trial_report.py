@@ -111,6 +111,24 @@ class JsonTest(AlignTestCase):
         self.assertEqual(changed["scene"], "other")
         self.assertNotEqual(changed["final"], plain["final"])
 
+    def test_one_set_takes_several_values_and_leaves_other_words_alone(self):
+        scene = self.scene()
+        changed = self.trial(scene, "--set", "friction.coefficient=0.4", "--set", "name=other")
+        for words in (
+            [scene, "--set", "friction.coefficient=0.4", "name=other"],
+            ["--set", "friction.coefficient=0.4", "name=other", scene],
+            ["--set=friction.coefficient=0.4", "name=other", scene],
+            ["--set", "friction.coefficient=9", "--sample", "0.1", scene, "--set", "friction.coefficient=0.4", "name=other"],
+        ):
+            with self.subTest(words):
+                report = self.trial(*words)
+                self.assertEqual((report["scene"], report["final"]), ("other", changed["final"]))
+        os.rename(scene, self.path("a=b.yaml"))
+        self.assertEqual(self.trial("--set", "name=other", self.path("a=b.yaml"))["scene"], "other")
+        process = self.align("trial", "--set", "name=other", "--", "a=b.yaml")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assert_refused(["trial", "a=b.yaml", "name=other"], "name=other")
+
     def test_tolerance_is_used_and_reported(self):
         report = self.trial(self.scene(), "--tolerance", "1e-6")
         self.assertEqual(report["solver"]["name"], "event")

@@ -148,9 +148,8 @@ TEST(StudyFile, FaultsOfTheSceneNameThePlaceThatHasSetThem) {
   message = message_of([] { study_of("set: {slot.clearance: 0.1}\nvary: {slot.clearance: [0, -1]}"); });
   EXPECT_TRUE(ends_with(message, "study.yaml: vary)")) << message;
   EXPECT_EQ(message.find("study.yaml: set"), std::string::npos) << message;
-  message = message_of([] {
-    refuse_without_scenes(with_settings(study_of("set: {slot.clearance: 0.1}"), {"slot.clearance=-2"}));
-  });
+  message = message_of(
+      [] { refuse_without_scenes(with_settings(study_of("set: {slot.clearance: 0.1}"), {"slot.clearance=-2"})); });
   EXPECT_TRUE(ends_with(message, "(set by slot.clearance=-2)")) << message;
   EXPECT_EQ(message.find("study.yaml: set"), std::string::npos) << message;
   message = message_of([] { study_of("vary: {initial.x: [0.2]}", "units: dimensionless"); });
@@ -162,7 +161,9 @@ TEST(StudyFile, SettingsOfVariedKeysAreRefused) {
       "vary: [{initial.x: [0.2, 0.3]}, {initial.phi: {from: -0.01, to: 0.01, count: 3, as: offset}},"
       " {gripper.stiffness.phi: [50, 60]}]");
   for (const char* setting : {"initial.x=0.25", "initial.x=nonsense", "initial.x.y=1"}) {
-    const std::string message = message_of([&] { refuse_settings_of_varied_keys(study, {"part.inertia=0.3", setting}); });
+    const std::string message = message_of([&] {
+      refuse_settings_of_varied_keys(study, {"part.inertia=0.3", setting});
+    });
     EXPECT_EQ(message.find("--set " + std::string(setting) + ": "), 0u) << message;
     EXPECT_NE(message.find("study.yaml varies initial.x"), std::string::npos) << message;
   }
