@@ -25,6 +25,15 @@ bool ask_master(const char* method, XmlRpcValue& request, XmlRpcValue& answer) {
   return ros::master::execute(method, request, response, answer, false);
 }
 
+/// True as well when the master does not answer. A master that was started anew may have the process number of the one
+/// before, as in a container, but it knows no node.
+bool master_knows_this_node() {
+  XmlRpcValue request, response, answer;
+  request[0] = request[1] = ros::this_node::getName();
+  if (ros::master::execute("lookupNode", request, response, answer, false)) return true;
+  return response.getType() != XmlRpcValue::TypeArray;
+}
+
 /// A call to this node's own slave API (http://wiki.ros.org/ROS/Slave_API), which lists and connects its topics.
 XmlRpcValue ask_self(const char* method, XmlRpcValue request) {
   const auto port = static_cast<int>(ros::XMLRPCManager::instance()->getServerPort());
@@ -89,11 +98,9 @@ void MasterWatch::watch(int known) {
   while (!stopped_.wait_for(lock, kInterval, [this] { return stop_; })) {
     lock.unlock();
     const int now = master_process();
-    if (now != 0 && now != known) {
-      if (known != 0) {
-        ROS_WARN("A new master: telling it of this node");
-        register_all(services_);
-      }
+    if (now != 0 && (now != known || !master_knows_this_node())) {
+      ROS_WARN("A new master: telling it of this node");
+      register_all(services_);
       known = now;
     }
     lock.lock();

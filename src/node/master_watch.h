@@ -11,13 +11,13 @@
 
 namespace vibratory_alignment {
 
-/// Number of the master's process, another one with every start of a master; 0 while there is none.
+/// Number of the master's process; 0 while there is none.
 int master_process();
 
 class MasterWatch {
  public:
   /// `services`: all that this node advertises, by full name. Its topics are found. `known`: the master's process
-  /// before anything was registered: one that came while it was knows only a part.
+  /// before anything was registered: one that came while it was may know only a part.
   MasterWatch(std::vector<std::string> services, int known);
   ~MasterWatch();
   MasterWatch(const MasterWatch&) = delete;

@@ -4,6 +4,7 @@ import os
 import signal
 import socket
 import subprocess
+import sys
 import time
 import unittest
 
@@ -23,12 +24,20 @@ class LostMaster(unittest.TestCase):
         self.port = port
         self.start_master()
 
-    def start_master(self):
-        self.master = self.spawn('rosmaster', '--core', '-p', str(self.port))
+    def start_master(self, pid=None):
+        """With `pid` it says that it has this one, as every master in a container of its own does."""
+        disguise = 'import os, rosmaster; os.getpid = lambda: %s; rosmaster.rosmaster_main()' % pid
+        program = ['rosmaster'] if pid is None else [sys.executable, '-c', disguise]
+        self.master = self.spawn(*program, '--core', '-p', str(self.port))
         self.wait_until(lambda: socket.socket().connect_ex(('localhost', self.port)) == 0, 'no master')
 
-    def wait_until(self, condition, message):
-        deadline = time.time() + 40.0
+    def replace_master(self, pid=None):
+        self.master.kill()
+        self.master.wait()
+        self.start_master(pid)
+
+    def wait_until(self, condition, message, seconds=40.0):
+        deadline = time.time() + seconds
         while not condition():
             self.assertLess(time.time(), deadline, message)
             time.sleep(0.1)
@@ -66,9 +75,7 @@ class LostMaster(unittest.TestCase):
         while '/aligner/set_parameters' not in self.registered():
             self.assertIsNone(node.poll())
         node.send_signal(signal.SIGSTOP)  # the rest it tells the next one
-        self.master.kill()
-        self.master.wait()
-        self.start_master()
+        self.replace_master()
         node.send_signal(signal.SIGCONT)
         self.wait_until(lambda: {'/aligner/get_loggers', '/aligner/set_parameters', '/aligner/align/goal',
                                  '/aligner/step'} <= self.registered(), 'not all is registered')
@@ -91,6 +98,14 @@ class LostMaster(unittest.TestCase):
                    '{goal: {time_limit: -1.0}}')
         self.assertIn('time_limit: -1: must be', echo.communicate(timeout=10.0)[0].decode())
         self.assertIsNone(node.poll())
+
+    def test_new_master_with_the_process_number_of_the_old_one(self):
+        self.replace_master(pid=1)
+        self.start_node('_time_scale:=0.0005', '_autostart:=false')
+        self.wait_until(lambda: {'/aligner/set_parameters', '/aligner/state'} <= self.registered(), 'not registered')
+        before = self.registered()
+        self.replace_master(pid=1)
+        self.wait_until(lambda: self.registered() >= before, 'not all is registered again', 15.0)
 
     def test_interrupt_ends_it_at_once(self):
         node = self.start_node('_time_scale:=0.0005')
