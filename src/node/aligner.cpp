@@ -46,6 +46,7 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
       stamps_(ros::Time::isSimTime() ? ros::Duration() : kWallClockCorrection),
       samples_(private_handle, frames_),
       diagnostics_(private_handle),
+      start_time_scale_(private_handle, "time_scale"),
       settings_server_(settings_mutex_, private_handle),
       align_server_(
           private_handle, parameters.feedback_rate, [this](const AlignGoal& goal) { on_goal(goal); },
@@ -54,8 +55,9 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   if (parameters.publish_clock) sim_clock_.emplace(private_handle);
   pacer_.start(parameters.time_scale, Clock::now(), 0.0);
   advertise();
-  settings_server_.updateConfig(stage_->settings.config());
+  tell_settings();
   settings_server_.setCallback([this](AlignerConfig& requested, std::uint32_t) { on_settings(requested); });
+  start_time_scale_.restore();
   waiting_since_ = Clock::now();
   // From here on a dead master must not stop the trial: a changed setting is told to it, and that blocks until it
   // answers.
@@ -128,6 +130,7 @@ void Aligner::run_trials() {
       return;
     }
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(due_in()));
+    start_time_scale_.restore();
   }
 }
 

@@ -31,6 +31,7 @@
 #include "node/sim_clock.h"
 #include "node/stage.h"
 #include "node/stamps.h"
+#include "node/start_value.h"
 
 namespace vibratory_alignment {
 
@@ -60,6 +61,7 @@ class Aligner {
   bool on_step_by(StepBy::Request& request, StepBy::Response& response);
   bool on_reset(Trigger::Request&, Trigger::Response& response);
   void on_settings(AlignerConfig& requested);
+  void tell_settings();
   std::string change_scene(const Scene& scene);
   void on_goal(const AlignGoal& goal);
   void on_cancel();
@@ -110,6 +112,7 @@ class Aligner {
   std::vector<ros::ServiceServer> services_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   Diagnostics diagnostics_;
+  StartValue start_time_scale_;
   boost::recursive_mutex settings_mutex_;
   dynamic_reconfigure::Server<AlignerConfig> settings_server_;
   AlignServer align_server_;

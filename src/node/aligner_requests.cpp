@@ -140,7 +140,7 @@ std::string Aligner::change_scene(const Scene& scene) {
     parameters_.autostart = false;
   }
   change_stage(std::move(next), true);
-  settings_server_.updateConfig(stage_->settings.config());
+  tell_settings();
   if (activity_ != Activity::waiting) show_start();
   return scene.name + ": paused at the start";
 }
@@ -156,7 +156,14 @@ void Aligner::change_stage(std::unique_ptr<Stage> next, bool other_scene) {
   if (other_scene) publish_static_transforms();
 }
 
+/// Tells dynamic_reconfigure's clients.
+void Aligner::tell_settings() {
+  settings_server_.updateConfig(stage_->settings.config());
+  start_time_scale_.overwritten();
+}
+
 void Aligner::on_settings(AlignerConfig& requested) {
+  start_time_scale_.overwritten();  // once this returns
   DriveSettings& settings = stage_->settings;
   TrialRun& trial = stage_->trial;
   const AlignerConfig before = settings.config();
@@ -181,9 +188,7 @@ void Aligner::on_goal(const AlignGoal& goal) {
   const double interval = other_scene ? interval_of(plan.scene) : stage_->interval;
   auto next = std::make_unique<Stage>(plan.scene, plan.settings, plan.limits, frames_, interval);
   change_stage(std::move(next), other_scene);  // from here on nothing can go wrong
-  if (other_scene || goal.set_excitation || goal.set_pressing_force) {
-    settings_server_.updateConfig(stage_->settings.config());
-  }
+  if (other_scene || goal.set_excitation || goal.set_pressing_force) tell_settings();
   parameters_.autostart = true;
   waiting_since_ = Clock::now();
   set_activity(Activity::waiting);

@@ -12,6 +12,7 @@ import rospy
 import rostest
 import tf2_ros
 from actionlib_msgs.msg import GoalStatus
+from dynamic_reconfigure.client import Client
 
 from aligner_test_case import AlignerTestCase, program, scene_path
 from vibratory_alignment.msg import AlignAction, AlignGoal, AlignResult, AlignerState
@@ -40,12 +41,8 @@ class Faults(AlignerTestCase):
         self.assertTrue(client.wait_for_server(rospy.Duration(15.0)))
         client.send_goal(AlignGoal())
         self.assertTrue(states.wait_for(50))
-        old = self.process_id()
-        os.kill(old, signal.SIGKILL)
+        self.kill_and_await_the_next()
         deadline = time.time() + 15.0
-        while self.process_id() in (old, None):
-            self.assertLess(time.time(), deadline, 'it does not come back')
-            time.sleep(0.1)
         while client.get_state() != GoalStatus.LOST:
             self.assertLess(time.time(), deadline, 'the client waits for ever for a result')
             time.sleep(0.1)
@@ -59,10 +56,43 @@ class Faults(AlignerTestCase):
         self.assertEqual(self.run_to_end(states).tau, 3.0)
         self.assertEqual(len(states.messages), 301)
 
-    def start_own(self, *arguments):
+    def kill_and_await_the_next(self):
+        old = self.process_id()
+        os.kill(old, signal.SIGKILL)
+        deadline = time.time() + 15.0
+        while self.process_id() in (old, None):
+            self.assertLess(time.time(), deadline, 'it does not come back')
+            time.sleep(0.1)
+
+    def test_respawned_has_the_time_scale_of_the_first_start(self):
+        Client('/aligner', timeout=15.0).update_configuration({'time_scale': 0.5})
+        time.sleep(0.5)
+        self.kill_and_await_the_next()
+        self.call('reset')
+        self.assertEqual(Client('/aligner', timeout=15.0).get_configuration(timeout=5.0)['time_scale'], 0.01)
+
+    def test_time_scale_that_was_not_given_is_no_parameter_later(self):
+        if rospy.has_param('/own'):
+            rospy.delete_param('/own')
+        self.start_own(time_scale=None)
+        client = Client('/own', timeout=15.0)
+        for scale in (0.5, 0.25):
+            self.assertFalse(self.becomes_parameter('/own/time_scale'), scale)
+            client.update_configuration({'time_scale': scale})
+        self.assertEqual(rospy.get_param('/own/amplitude'), 1.0, 'the others are kept there as usual')
+
+    def becomes_parameter(self, name):
+        """False as soon as it is none, within a second."""
+        deadline = time.time() + 1.0
+        while rospy.has_param(name) and time.time() < deadline:
+            time.sleep(0.05)
+        return rospy.has_param(name)
+
+    def start_own(self, time_scale=0.01):
         """An aligner that roslaunch knows nothing of."""
+        scale = [] if time_scale is None else ['_time_scale:=%g' % time_scale]
         process = self.spawn(program('aligner_node'), '__name:=own', '_scene_file:=' + scene_path('small'),
-                             '_sample_interval:=0.001', '_time_scale:=0.01', '_autostart:=false', *arguments)
+                             '_sample_interval:=0.001', '_autostart:=false', *scale)
         self.node = '/own'
         rospy.wait_for_service('/own/step', 15.0)
         return process
