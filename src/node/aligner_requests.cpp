@@ -87,7 +87,12 @@ bool Aligner::on_step_by(StepBy::Request& request, StepBy::Response& response) {
 bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
   const TrialResult so_far = stage_->trial.result();
   try {
-    stage_->trial.restart();
+    // the limits of a goal end with its trial, which is what is reset while the goal is active
+    if (align_server_.active()) {
+      stage_->trial.restart();
+    } else {
+      stage_->trial.restart(stage_->scene.trial);
+    }
   } catch (const std::exception& error) {
     response.success = false;
     response.message = error.what();

@@ -12,7 +12,7 @@
 
 namespace vibratory_alignment {
 
-/// Limits in place of the scene's, dimensionless; none: the scene's.
+/// Limits in place of the scene's, dimensionless, for one trial; none: the scene's.
 struct TrialLimits {
   std::optional<double> time, force;
 };

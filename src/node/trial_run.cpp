@@ -7,8 +7,11 @@ namespace vibratory_alignment {
 
 TrialRun::TrialRun(const Scene& scene, double interval) : scene_(scene), interval_(interval) { restart(); }
 
-void TrialRun::restart() {
-  Simulation simulation(scene_);
+void TrialRun::restart(const TrialSettings& limits) {
+  Scene scene = scene_;
+  scene.trial = limits;
+  Simulation simulation(scene);
+  scene_ = std::move(scene);
   sampler_.reset();
   simulation_.emplace(std::move(simulation));
   sampler_.emplace(*simulation_, interval_);

@@ -39,7 +39,10 @@ class TrialRun {
 
   /// Starts again as if the scene had had the present excitations and pressing force from the beginning. Throws as
   /// Simulation does; then the trial goes on as it was.
-  void restart();
+  void restart() { restart(scene_.trial); }
+
+  /// The same with other limits.
+  void restart(const TrialSettings& limits);
 
   /// Of the trial up to the last sample; the sums of the solver's steps and of the energy are up to a step further.
   TrialResult result() const;

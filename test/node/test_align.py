@@ -243,7 +243,19 @@ class Align(AlignerTestCase):
         self.assertIn('reset', self.client.get_goal_status_text())
         time.sleep(0.3)
         self.assertEqual(self.states.messages[-1].tau, 0.0)
-        self.assertEqual(self.run_to_end(self.states).tau, 2.0, 'the trial is still that of the goal')
+        self.assertTrue(self.call('start').success)
+        self.assertTrue(self.states.wait(lambda states: states[-1].tau == 2.0))
+        time.sleep(0.3)
+        self.assertEqual(self.states.messages[-1].tau, 2.0, 'the trial is still that of the goal')
+        self.assertEqual(self.run_to_end(self.states).tau, 3.0, 'no goal was active when it was reset once more')
+
+    def test_limits_of_a_goal_end_with_its_trial(self):
+        self.time_scale(0.0)
+        self.client.send(scene=scene_path('small'), time_limit=1.0, force_limit=1e-3)
+        _, result = self.client.done()
+        self.assertEqual((result.tau, result.force_limit_exceeded), (1.0, True))
+        again = self.run_to_end(self.states)
+        self.assertEqual((again.tau, again.force_limit_exceeded), (3.0, False), 'the scene has no limit of the force')
 
     def load_scene(self, scene):
         return rospy.ServiceProxy('/aligner/load_scene', LoadScene)(scene)

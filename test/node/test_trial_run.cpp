@@ -187,6 +187,21 @@ TEST(TrialRun, RestartIsAsIfTheSceneHadTheChangedValues) {
   }
 }
 
+TEST(TrialRun, RestartMayHaveOtherLimits) {
+  Scene scene = small_scene::load();
+  scene.trial.time_limit = 0.5;
+  scene.trial.force_limit = 1e-3;
+  TrialRun run(scene, kInterval);
+  all_samples(run);
+  EXPECT_TRUE(run.result().force_limit_exceeded);
+  TrialSettings limits = scene.trial;
+  limits.time_limit = 0.75;
+  limits.force_limit.reset();
+  run.restart(limits);
+  EXPECT_EQ(all_samples(run).back().time, 0.75);
+  EXPECT_FALSE(run.result().force_limit_exceeded);
+}
+
 TEST(TrialRun, RestartThatIsImpossibleLeavesTheTrialAsItWas) {
   TrialRun run(small_scene::load(), kInterval);
   skip(run, 10);
