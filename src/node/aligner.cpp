@@ -188,6 +188,7 @@ void Aligner::publish_due_samples() {
     due = pacer_.due(next_due());
     now = Clock::now();
   }
+  if (activity_ == Activity::running && due > now) publish_end_if_due(turn_end);
   if (activity_ == Activity::running && pacer_.time_scale() > 0.0 && now - due > kLongestLag) {
     ROS_WARN_THROTTLE(10.0, "Cannot keep up with ~time_scale %g: simulated time runs slower", pacer_.time_scale());
     pace_meter_.add_dropped(std::chrono::duration<double>(now - due).count());
@@ -195,12 +196,22 @@ void Aligner::publish_due_samples() {
   }
 }
 
-/// Takes as long as the solver does, but no longer than `go_on` says. False: there was none, or none yet.
-bool Aligner::publish_next(const std::function<bool()>& go_on) {
+/// Where the samples are far apart the motion is followed from one to the next, so that the end of the trial, which is
+/// known only when it is there, need not wait for the next one.
+void Aligner::publish_end_if_due(Clock::time_point turn_end) {
+  const double last = stage_->seconds(stage_->trial.time());
+  if (pacer_.due(next_due()) - pacer_.due(last) <= kIdleWait) return;
+  const double reached = pacer_.simulated(Clock::now()) / stage_->seconds(1.0);
+  publish_next([&] { return Clock::now() < turn_end; }, reached);
+}
+
+/// Takes as long as the solver does, but no longer than `go_on` says, and no further than to `latest`. False: there was
+/// none, or none yet.
+bool Aligner::publish_next(const std::function<bool()>& go_on, double latest) {
   const double before = stage_->trial.time();
   Sample sample;
   try {
-    if (!stage_->trial.next(sample, go_on)) return false;
+    if (!stage_->trial.next(sample, go_on, latest)) return false;
   } catch (const SceneError& error) {
     // settings changed before the start may leave the scene without one
     const std::string text = std::string("The trial cannot start with these settings: ") + error.what();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -75,7 +76,8 @@ class Aligner {
   void run();
   double due_in() const;
   void publish_due_samples();
-  bool publish_next(const std::function<bool()>& go_on);
+  void publish_end_if_due(Clock::time_point turn_end);
+  bool publish_next(const std::function<bool()>& go_on, double latest = std::numeric_limits<double>::infinity());
   std::function<bool()> not_interrupted() const;
   void publish(const Sample& sample);
   void publish_markers(const ros::Time& stamp);

@@ -41,10 +41,10 @@ void TrialRun::apply_changes() {
   excitations_changed_ = pressing_force_changed_ = false;
 }
 
-bool TrialRun::next(Sample& sample, const std::function<bool()>& go_on) {
+bool TrialRun::next(Sample& sample, const std::function<bool()>& go_on, double latest) {
   if (ended_) return false;
   apply_changes();
-  if (!sampler_->next(sample, go_on)) {
+  if (!sampler_->next(sample, go_on, latest)) {
     ended_ = sampler_->finished();
     return false;
   }

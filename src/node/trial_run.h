@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,7 @@
 namespace vibratory_alignment {
 
 /// All numbers dimensionless. Changes enter at the instant of the sample that next() gave last, or as far beyond it as
-/// a call of next() that was not to go on has come.
+/// a call of next() that gave none has come.
 class TrialRun {
  public:
   /// Samples lie at n * interval, as `align trial --sample` has them. Throws as Simulation does.
@@ -22,9 +23,11 @@ class TrialRun {
   TrialRun(const TrialRun&) = delete;
   TrialRun& operator=(const TrialRun&) = delete;
 
-  /// The next sample, the start of the trial first. False when the trial has ended, or when `go_on`, asked now and then
-  /// (Sampler::next), said no: then it is not there yet, and the next call goes on from where this one was.
-  bool next(Sample& sample, const std::function<bool()>& go_on = {});
+  /// The next sample, the start of the trial first. False when the trial has ended, when `go_on`, asked now and then,
+  /// said no, or when there is none up to the instant `latest` (Sampler::next): then it is not there yet, and the next
+  /// call goes on from where this one was.
+  bool next(Sample& sample, const std::function<bool()>& go_on = {},
+            double latest = std::numeric_limits<double>::infinity());
 
   /// Instant of the next sample, unless the trial ends before it.
   double next_time() const;

@@ -68,7 +68,7 @@ void Sampler::read(double time, double local_time, Sample& sample) {
   sample.progress = start > clearance ? std::clamp((start - sample.misalignment) / (start - clearance), 0.0, 1.0) : 1.0;
 }
 
-bool Sampler::next(Sample& sample, const std::function<bool()>& go_on) {
+bool Sampler::next(Sample& sample, const std::function<bool()>& go_on, double latest) {
   if (finished_) return false;
   if (!started_) {
     started_ = true;
@@ -82,6 +82,7 @@ bool Sampler::next(Sample& sample, const std::function<bool()>& go_on) {
     const Segment& segment = simulation_.segment();
     const double target = static_cast<double>(index_) * interval_;
     const double end = segment.end_time();
+    if (std::min(target, end) > latest) return false;
     if (target < end) {
       const double local = std::clamp(target - segment.start, 0.0, segment.duration);
       read(target, local, sample);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 
 #include "mechanics/contact.h"
 #include "mechanics/state.h"
@@ -50,8 +51,10 @@ class Sampler {
   Sampler(Simulation& simulation, double interval, bool with_events = false);
 
   /// The next sample: t = 0 first, then n * interval, at last the end of the trial. False when there is none left, or
-  /// when `go_on`, asked every kSegmentsUnasked segments, said no: then finished() is false, and the next call goes on.
-  bool next(Sample& sample, const std::function<bool()>& go_on = {});
+  /// when `go_on`, asked every kSegmentsUnasked segments, said no, or when there is none up to the instant `latest`,
+  /// and the motion is computed as far: then finished() is false, and the next call goes on.
+  bool next(Sample& sample, const std::function<bool()>& go_on = {},
+            double latest = std::numeric_limits<double>::infinity());
 
   /// There is no sample left.
   bool finished() const { return finished_; }

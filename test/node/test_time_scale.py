@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """The pace of the trial against the wall clock."""
+import time
+
 import dynamic_reconfigure.client
 import rostest
 
@@ -29,6 +31,17 @@ class TimeScale(AlignerTestCase):
         self.assertLess(self.run_at(0.0), 0.5)
         fast = [(state.tau, state.dimensionless) for state in self.states.messages]
         self.assertEqual(slow, fast)
+
+    def test_the_end_does_not_wait_for_the_next_sample(self):
+        self.node = '/seldom'  # a sample is due after every 4 s, the end after 1.5 s
+        states, result = self.listen('state'), self.listen('result')
+        self.assertTrue(states.wait_for(1))
+        start = time.time()
+        self.assertTrue(self.call('start').success)
+        self.assertTrue(result.wait_for(1))
+        self.assertAlmostEqual(result.arrivals[-1] - start, 1.5, delta=0.3)
+        self.assertTrue(states.wait_for(2))
+        self.assertEqual([state.tau for state in states.messages], [0.0, 3.0])
 
     def test_change_while_running_keeps_the_samples(self):
         self.client.update_configuration({'time_scale': 0.001})

@@ -99,6 +99,31 @@ TEST(Sampler, goes_on_where_it_was_held) {
   EXPECT_GT(held, 20);
 }
 
+// Followed from one sample to the next the trial is the same, and its end is there once its instant is.
+TEST(Sampler, gives_the_end_as_soon_as_it_is_reached) {
+  Scene scene = scene_of(insertion);
+  scene.trial.time_limit = 4.1;
+  const Record r = record(scene, 0.5);
+  Simulation simulation(scene);
+  Sampler sampler(simulation, 0.5);
+  Sample sample;
+  std::size_t index = 0;
+  for (double now = 0.0; !sampler.finished(); now += 0.01) {
+    ASSERT_LT(now, 4.2);
+    while (sampler.next(sample, {}, now)) {
+      ASSERT_LT(index, r.samples.size());
+      EXPECT_EQ(sample.time, r.samples[index].time);
+      EXPECT_EQ(test::distance(sample.state, r.samples[index].state), 0.0);
+      EXPECT_LE(sample.time, now);
+      EXPECT_GT(sample.time, now - 0.011) << "not later than need be";
+      ++index;
+    }
+  }
+  EXPECT_EQ(index, r.samples.size());
+  EXPECT_TRUE(sample.is_last);
+  EXPECT_EQ(simulation.result().counts.steps, r.result.counts.steps);
+}
+
 TEST(Sampler, output_rate_changes_nothing) {
   const Scene scene = scene_of(insertion);
   const Record coarse = record(scene, 0.5), fine = record(scene, 1.0 / 128.0), events = record(scene, 0.25, true);
