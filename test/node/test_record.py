@@ -36,13 +36,24 @@ class Record(unittest.TestCase):
         self.assertEqual(types(self.live), types(self.offline))
         self.assertEqual(set(types(self.live)), {'/aligner/' + topic for topic in TOPICS} | {'/tf', '/tf_static'})
 
+    def test_is_whole_in_a_namespace_too(self):
+        bag = os.path.join(self.directory.name, 'cell.bag')
+        arguments = dict(scene=scene_path('small'), rviz='false', record=bag, sample_interval='0.01', time_scale='0.01',
+                         exit_when_done='true')
+        launch = ('<launch><group ns="cell"><include file="$(find vibratory_alignment)/launch/trial.launch">%s'
+                  '</include></group></launch>' % ''.join('<arg name="%s" value="%s"/>' % item
+                                                          for item in arguments.items()))
+        subprocess.run(['roslaunch', '-'], input=launch, universal_newlines=True, check=True)
+        self.assertEqual(set(types(bag)), {'/cell/aligner/' + topic for topic in TOPICS} | {'/tf', '/tf_static'})
+        self.assertEqual([len(read(bag, '/cell/aligner/' + topic)) for topic in ('state', 'result')], [301, 1])
+
     def test_action_is_recorded_on_request(self):
         for request, expected in (('false', set()), ('true', {'goal', 'cancel', 'feedback', 'result', 'status'})):
             command = subprocess.check_output(['roslaunch', '--args', 'record_aligner', 'vibratory_alignment',
                                                'record.launch', 'bag:=x.bag', 'action:=' + request],
                                               universal_newlines=True)
-            self.assertEqual(set(re.findall(r' /aligner/align/(\w+)', command)), expected)
-            self.assertIn(' /aligner/restarts', command)
+            self.assertEqual(set(re.findall(r' aligner/align/(\w+)', command)), expected)
+            self.assertIn(' aligner/restarts', command)
 
     def test_a_scene_file_may_end_in_yml(self):
         path = os.path.join(self.directory.name, 'small.yml')
