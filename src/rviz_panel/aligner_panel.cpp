@@ -252,6 +252,7 @@ void AlignerPanel::refresh() {
   show_presence(status);
   show_progress(status);
   show_settings(status);
+  if (in_rviz_ && status.state) view_fit_.follow(*vis_manager_, status.state->header.frame_id);
 }
 
 void AlignerPanel::show_presence(const AlignerLink::Status& status) {

@@ -10,6 +10,7 @@
 #include <QTimer>
 
 #include "rviz_panel/aligner_link.h"
+#include "rviz_panel/view_fit.h"
 
 class QComboBox;
 class QLabel;
@@ -26,6 +27,8 @@ class AlignerPanel : public rviz::Panel {
  public:
   explicit AlignerPanel(QWidget* parent = nullptr);
   ~AlignerPanel() override;
+
+  void onInitialize() override { in_rviz_ = true; }
 
   /// Keys in the .rviz file: Node, Scene (chosen in the list), Show Plot, Show Settings.
   void load(const rviz::Config& config) override;
@@ -46,6 +49,8 @@ class AlignerPanel : public rviz::Panel {
   void show_settings(const AlignerLink::Status& status);
 
   std::unique_ptr<AlignerLink> link_;
+  bool in_rviz_ = false;  ///< else vis_manager_ has no value
+  ViewFit view_fit_;
   QTimer timer_;
   QLabel *lamp_, *presence_, *outcome_, *answer_;
   QLineEdit* node_;
