@@ -20,6 +20,7 @@ constexpr std::chrono::milliseconds kPictureInterval(33);  ///< of wall time bet
 constexpr std::chrono::seconds kPoseInterval(1);           ///< of wall time between two poses of a part at rest
 constexpr std::chrono::milliseconds kLongestLag(500);      ///< behind the wall clock, then the pace starts anew
 constexpr std::chrono::seconds kSubscriberPatience(30);
+constexpr std::chrono::seconds kClockPatience(5);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
 constexpr std::chrono::milliseconds kIdleWait(50);             ///< longest wait for callbacks
 constexpr double kMasterPatience = 0.05;                       ///< for a master that does not answer [s]
@@ -125,6 +126,7 @@ void Aligner::run_trials() {
     }
     if (sim_clock_) sim_clock_->repeat();
     if (diagnostics_.due()) report_health();
+    warn_without_clock();
     if (activity_ == Activity::ended && parameters_.exit_when_done &&
         Clock::now() - ended_at_ >= std::chrono::duration<double>(parameters_.linger)) {
       return;
@@ -259,6 +261,16 @@ void Aligner::finish() {
   }
   diagnostics_.set_last_outcome(result);
   if (align_server_.active()) align_server_.finish(stage_->messages, result, text);
+}
+
+/// A replay leaves /use_sim_time behind. The trial runs all the same, but whoever waits for ROS time waits for ever.
+void Aligner::warn_without_clock() {
+  if (clock_is_missed_ || !ros::Time::isSimTime() || !ros::Time::now().isZero()) return;
+  if (Clock::now() - started_ < kClockPatience) return;
+  clock_is_missed_ = true;
+  ROS_WARN(
+      "/use_sim_time is true, as a replay leaves it, but nobody publishes /clock: ROS time stands at 0, and a recorder "
+      "records nothing. To run in wall time: rosparam delete /use_sim_time, and start all nodes again");
 }
 
 void Aligner::report_health() {

@@ -86,6 +86,7 @@ class Aligner {
   void finish();
   long step(long samples);
   void report_health();
+  void warn_without_clock();
 
   double interval_of(const Scene& scene) const;
   double next_due() const { return stage_->seconds(stage_->trial.next_time()); }
@@ -102,6 +103,8 @@ class Aligner {
   PaceMeter pace_meter_;
   std::function<bool()> interrupted_;  ///< set by spin()
   Activity activity_ = Activity::waiting;
+  const Clock::time_point started_ = Clock::now();
+  bool clock_is_missed_ = false;  ///< and that has been said
   Clock::time_point waiting_since_, all_subscribed_at_, next_picture_, next_pose_, ended_at_;
   bool all_subscribed_ = false;
   std::optional<SimClock> sim_clock_;

@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
+import rospy
 import rostest
 
 from aligner_test_case import align, scene_path
@@ -46,6 +47,15 @@ class Record(unittest.TestCase):
         subprocess.run(['roslaunch', '-'], input=launch, universal_newlines=True, check=True)
         self.assertEqual(set(types(bag)), {'/cell/aligner/' + topic for topic in TOPICS} | {'/tf', '/tf_static'})
         self.assertEqual([len(read(bag, '/cell/aligner/' + topic)) for topic in ('state', 'result')], [301, 1])
+
+    def test_is_refused_where_ros_time_stands_still(self):
+        bag = os.path.join(self.directory.name, 'none.bag')
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        run = subprocess.run(['roslaunch', 'vibratory_alignment', 'record.launch', 'bag:=' + bag],
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=40.0)
+        self.assertIn('rosparam delete /use_sim_time', run.stdout)
+        self.assertIn('exit code 1', run.stdout)
 
     def test_action_is_recorded_on_request(self):
         for request, expected in (('false', set()), ('true', {'goal', 'cancel', 'feedback', 'result', 'status'})):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Stamps while ROS time stands still at 0, and under the clock of somebody else."""
+import subprocess
 import time
 
 import rospy
@@ -7,7 +8,7 @@ import rostest
 import tf2_ros
 from rosgraph_msgs.msg import Clock
 
-from aligner_test_case import AlignerTestCase
+from aligner_test_case import AlignerTestCase, program, scene_path
 
 
 class SimTime(AlignerTestCase):
@@ -16,6 +17,14 @@ class SimTime(AlignerTestCase):
         self.assertGreater(stamps[0].to_nsec(), 0)
         for earlier, later in zip(stamps, stamps[1:]):
             self.assertLess(earlier, later)
+
+    def test_0_a_clock_that_never_comes_is_missed_in_the_log(self):
+        process = subprocess.Popen((program('aligner_node'), '__name:=other', '_scene_file:=' + scene_path('small'),
+                                    '_autostart:=false'), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   universal_newlines=True)
+        time.sleep(8.0)
+        process.terminate()
+        self.assertEqual(process.communicate(timeout=10.0)[0].count('rosparam delete /use_sim_time'), 1)
 
     def test_1_stamps_rise_from_above_zero_without_a_clock(self):
         states = self.listen('state')
