@@ -2,7 +2,9 @@
 
 #include <string>
 
+#include <XmlRpc.h>
 #include <ros/master.h>
+#include <ros/network.h>
 #include <ros/this_node.h>
 #include <rosgraph_msgs/Clock.h>
 
@@ -14,6 +16,26 @@ namespace {
 const ros::Time kStartTime(1, 0);  ///< as in the bags of `align trial --bag`
 constexpr std::chrono::milliseconds kRepeatInterval(100);
 const ros::WallDuration kArrival(0.05);
+constexpr double kPatience = 1.0;  ///< with a node that may be dead [s]
+
+/// False for a node that was killed, which the master knows nothing of.
+bool is_alive(const std::string& node) {
+  XmlRpc::XmlRpcValue request, response, uri, answer;
+  request[0] = ros::this_node::getName();
+  XmlRpc::XmlRpcValue caller = request;
+  request[1] = node;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, response, uri, false)) return false;
+  if (!ros::network::splitURI(static_cast<std::string>(uri), host, port)) return false;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  if (!client.executeNonBlock("getPid", caller)) return false;
+  XmlRpc::XmlRpcDispatch dispatch;
+  dispatch.addSource(&client, XmlRpc::XmlRpcDispatch::WritableEvent | XmlRpc::XmlRpcDispatch::Exception);
+  dispatch.work(kPatience);
+  dispatch.removeSource(&client);
+  return client.executeCheckDone(answer) && answer.valid();
+}
 
 /// A node that publishes /clock, empty if there is none.
 std::string clock_publisher() {
@@ -22,7 +44,11 @@ std::string clock_publisher() {
   if (!ros::master::execute("getSystemState", request, response, state, false)) return "";
   XmlRpc::XmlRpcValue& topics = state[0];
   for (int i = 0; i < topics.size(); ++i) {
-    if (static_cast<std::string>(topics[i][0]) == "/clock" && topics[i][1].size() > 0) return topics[i][1][0];
+    if (static_cast<std::string>(topics[i][0]) != "/clock") continue;
+    for (int j = 0; j < topics[i][1].size(); ++j) {
+      const std::string node = topics[i][1][j];
+      if (is_alive(node)) return node;
+    }
   }
   return "";
 }

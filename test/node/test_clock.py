@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 """The node publishes simulated time as /clock, and what others make of it."""
+import os
+import signal
 import subprocess
 import time
+from xmlrpc.client import ServerProxy
 
 import actionlib
+import rosgraph
 import rospy
 import rostest
 import tf2_ros
@@ -120,12 +124,27 @@ class OwnClock(AlignerTestCase):
         self.assert_never_zero_nor_back(self.instants())
         self.assertGreater(self.instants()[-1] - self.instants()[0], rospy.Duration(3.3 * 5e-3 - 1e-6))
 
+    def start_second(self):
+        process = subprocess.Popen((program('aligner_node'), '__name:=second', '_scene_file:=' + scene_path('small'),
+                                    '_publish_clock:=true', '_autostart:=false'), stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, universal_newlines=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
     def test_second_clock_is_refused(self):
-        process = subprocess.run((program('aligner_node'), '__name:=second', '_scene_file:=' + scene_path('small'),
-                                  '_publish_clock:=true'), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                 timeout=20, universal_newlines=True)
+        process = self.start_second()
+        output, _ = process.communicate(timeout=20)
         self.assertEqual(process.returncode, 1)
-        self.assertIn('/second/publish_clock: true: /aligner publishes /clock already', process.stdout)
+        self.assertIn('/second/publish_clock: true: /aligner publishes /clock already', output)
+
+    def test_zz_clock_of_a_killed_node_is_in_nobodys_way(self):
+        """The last one: it kills the aligner."""
+        uri = rosgraph.Master('/test_clock').lookupNode('/aligner')
+        os.kill(ServerProxy(uri).getPid('/test_clock')[2], signal.SIGKILL)
+        process = self.start_second()
+        rospy.wait_for_service('/second/step', 15.0)
+        self.assertIsNone(process.poll())
 
 
 if __name__ == '__main__':
