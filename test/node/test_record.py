@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 import rospy
@@ -56,6 +57,15 @@ class Record(unittest.TestCase):
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=40.0)
         self.assertIn('rosparam delete /use_sim_time', run.stdout)
         self.assertIn('exit code 1', run.stdout)
+
+    def test_trial_ends_at_once_with_a_recorder_that_cannot_start(self):
+        bag = os.path.join(self.directory.name, 'none', 'trial.bag')
+        start = time.time()
+        run = subprocess.run(['roslaunch', 'vibratory_alignment', 'trial.launch', 'scene:=' + scene_path('small'),
+                              'rviz:=false', 'record:=' + bag, 'least_free:=1M'], stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, universal_newlines=True, timeout=60.0)
+        self.assertLess(time.time() - start, 25.0, 'the node waits 30 s for the recorder')
+        self.assertIn('REQUIRED process [record_aligner', run.stdout)
 
     def test_action_is_recorded_on_request(self):
         for request, expected in (('false', set()), ('true', {'goal', 'cancel', 'feedback', 'result', 'status'})):
