@@ -41,8 +41,11 @@ int wait_for_master() {
   return 0;
 }
 
-/// `rosnode kill`, or another node that takes this one's name.
-void on_shutdown_request(XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& answer) {
+/// `rosnode kill`, or another node that takes this one's name: the second parameter says which.
+void on_shutdown_request(XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answer) {
+  std::ostringstream reason;
+  if (request.getType() == XmlRpc::XmlRpcValue::TypeArray && request.size() > 1) request[1].write(reason);
+  ROS_WARN("Told to end: %s", reason.str().c_str());
   interrupted = true;
   answer = ros::xmlrpc::responseInt(1, "", 0);
 }

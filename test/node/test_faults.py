@@ -103,6 +103,16 @@ class Faults(AlignerTestCase):
         self.assertEqual(process.wait(5.0), 0)
         self.assertLess(time.time() - start, 1.0)
 
+    def test_node_that_loses_its_name_says_so(self):
+        arguments = (program('aligner_node'), '__name:=own', '_scene_file:=' + scene_path('small'), '_autostart:=false')
+        first = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        self.addCleanup(first.kill)
+        rospy.wait_for_service('/own/step', 15.0)
+        self.spawn(*arguments)
+        output, _ = first.communicate(timeout=10.0)
+        self.assertEqual(first.returncode, 0)
+        self.assertIn('new node registered with same name', output)
+
     def test_subscriber_that_never_reads(self):
         process = self.start_own()
         stuck = self.spawn('rostopic', 'echo', '/own/state')
