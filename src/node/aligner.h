@@ -84,7 +84,12 @@ class Aligner {
   void publish_static_transforms();
   void announce_restart();
   void finish();
-  long step(long samples);
+  struct Steps {
+    long published = 0;
+    bool cut_short = false;  ///< the solver takes too long
+  };
+  Steps step(long samples);
+  std::string place_after(const Steps& steps) const;
   void report_health();
   void warn_without_clock();
 

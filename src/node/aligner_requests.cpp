@@ -13,6 +13,7 @@ namespace {
 
 /// Samples of one step: as many as a subscriber's queue takes, so that none is lost, and the node soon answers again.
 constexpr long kLongestStep = kQueueSize;
+constexpr std::chrono::seconds kSteppingTurn(2);  ///< of wall time, then others get theirs
 constexpr char kEnded[] = "the trial has ended; reset it first";
 constexpr char kNotStarted[] = "not started yet";
 
@@ -46,21 +47,33 @@ bool Aligner::on_step(Trigger::Request&, Trigger::Response& response) {
     response.message = activity_ == Activity::ended ? kEnded : kNotStarted;
     return true;
   }
-  step(1);
-  response.message = "at " + time_text();
+  response.message = place_after(step(1));
   return true;
 }
 
-/// Pauses, publishes up to so many samples, and returns how many.
-long Aligner::step(long samples) {
+/// Pauses, and publishes up to so many samples.
+Aligner::Steps Aligner::step(long samples) {
   set_activity(Activity::paused);
-  long published = 0;
-  while (published < samples && activity_ == Activity::paused) {
-    if (published == samples - 1) next_picture_ = {};
-    if (!publish_next(not_interrupted())) break;
-    ++published;
+  const Clock::time_point turn_end = Clock::now() + kSteppingTurn;
+  const auto go_on = [&] { return Clock::now() < turn_end && not_interrupted()(); };
+  Steps steps;
+  while (steps.published < samples && activity_ == Activity::paused) {
+    if (steps.published == samples - 1) next_picture_ = {};
+    if (!go_on() || !publish_next(go_on)) break;
+    ++steps.published;
   }
-  return published;
+  steps.cut_short = steps.published < samples && activity_ == Activity::paused && Clock::now() >= turn_end;
+  return steps;
+}
+
+std::string Aligner::place_after(const Steps& steps) const {
+  std::ostringstream text;
+  text << "at " << time_text();
+  if (steps.cut_short) {
+    text << "; the solver takes long: " << steps.published << " samples in " << kSteppingTurn.count()
+         << " s, ask again for the others";
+  }
+  return text.str();
 }
 
 bool Aligner::on_step_by(StepBy::Request& request, StepBy::Response& response) {
@@ -79,8 +92,11 @@ bool Aligner::on_step_by(StepBy::Request& request, StepBy::Response& response) {
     fault << kNotStarted;
   }
   response.success = fault.str().empty();
-  if (response.success) response.samples = static_cast<std::uint32_t>(step(static_cast<long>(samples)));
-  response.message = response.success ? "at " + time_text() : fault.str();
+  response.message = fault.str();
+  if (!response.success) return true;
+  const Steps steps = step(static_cast<long>(samples));
+  response.samples = static_cast<std::uint32_t>(steps.published);
+  response.message = place_after(steps);
   return true;
 }
 

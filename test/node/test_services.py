@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """The services ~start, ~pause, ~step and ~reset."""
+import tempfile
 import time
 
+import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from tf2_msgs.msg import TFMessage
 
-from aligner_test_case import AlignerTestCase, Newcomer
+from aligner_test_case import AlignerTestCase, Newcomer, scene_path
 from vibratory_alignment.msg import AlignerContacts, AlignerState
+from vibratory_alignment.srv import LoadScene
 
 INTERVAL = 0.01
 
@@ -111,6 +114,30 @@ class Services(AlignerTestCase):
         self.assertFalse(self.step_by(samples=1).success)
         self.assertTrue(self.states.wait_for(300))
         self.assertEqual(self.states.messages[-1].tau, 3.0)
+
+    def load(self, scene):
+        self.assertTrue(rospy.ServiceProxy('/aligner/load_scene', LoadScene)(scene).success)
+
+    def test_step_by_that_takes_long_gives_others_their_turn(self):
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file, open(scene_path('small')) as small:
+            file.write(small.read() + 'solver: {name: rk4, step: 1.0e-7, step_limit: 1000000000}\n')
+            file.flush()
+            self.addCleanup(self.load, scene_path('small'))
+            self.load(file.name)
+        self.assertTrue(self.states.wait_for(1))
+        self.states.forget(0)
+        published = 0
+        for _ in range(2):
+            start = time.time()
+            response = self.step_by(samples=300)
+            self.assertLess(time.time() - start, 4.0)
+            self.assertTrue(response.success)
+            self.assertIn('ask again', response.message)
+            self.assertLess(response.samples, 300)
+            published += response.samples
+        self.assertGreater(published, 0)
+        self.assertTrue(self.states.wait_for(published))
+        self.assertEqual([state.tau for state in self.states.messages], [n * INTERVAL for n in range(1, published + 1)])
 
     def test_step_by_refuses_what_it_cannot_do(self):
         for request in (dict(), dict(samples=1001), dict(duration=-1.0), dict(duration=0.004), dict(duration=1e3),
