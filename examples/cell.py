@@ -6,12 +6,15 @@ A client of the action ~align of aligner_node, as a sequencer of one's own would
   ~parts    list of maps: `part`, the name for the report, and any fields of the action's goal (action/Align.action)
   ~patience wall time for one part [s] (default: 120)
 Topic ~report (std_msgs/String, latched): a list of results as YAML, when the last part is done.
-Exit status: 0 every part is in its slot, 1 some are not or the aligner does not answer.
+All parts are checked before the first one is aligned.
+Exit status: 0 every part is in its slot, 1 some are not, the aligner does not answer, or a part cannot be asked for.
 """
 import sys
 import time
+from io import BytesIO
 
 import actionlib
+import genpy
 import rospy
 import yaml
 from actionlib_msgs.msg import GoalStatus
@@ -22,13 +25,38 @@ from vibratory_alignment.msg import AlignAction, AlignGoal
 STATES = {value: name.lower() for name, value in vars(GoalStatus).items() if name.isupper()}
 
 
+def name_of(part):
+    return part.get('part', part.get('scene', 'part'))
+
+
 def goal_of(part):
-    """The goal with the fields that a part gives. Raises AttributeError, ValueError for a field that is none."""
-    fields = {key: value for key, value in part.items() if key != 'part'}
-    for key, value in fields.items():
-        if isinstance(value, str) and key != 'scene':  # PyYAML takes 1e-3 for text
-            fields[key] = float(value)
-    return AlignGoal(**fields)
+    """The goal with the fields that a part gives. Raises ValueError for a field that is none, or a value of it."""
+    goal = AlignGoal()
+    for key, value in part.items():
+        if key == 'part':
+            continue
+        if key not in AlignGoal.__slots__:
+            raise ValueError('%s: no field of the goal; these are: %s' % (key, ', '.join(AlignGoal.__slots__)))
+        try:
+            # PyYAML takes 1e-3 for text
+            setattr(goal, key, float(value) if isinstance(value, str) and key != 'scene' else value)
+            goal.serialize(BytesIO())
+        except (ValueError, genpy.SerializationError) as error:
+            raise ValueError('%s: %r: %s' % (key, value, error)) from None
+    return goal
+
+
+def goals_of(parts):
+    """The goals of all parts, None if one is impossible: what is wrong with each has been said then."""
+    goals, faults = [], []
+    for number, part in enumerate(parts):
+        try:
+            goals.append(goal_of(part))
+        except ValueError as error:
+            faults.append('%s[%d] (%s): %s' % (rospy.resolve_name('~parts'), number, name_of(part), error))
+    for fault in faults:
+        rospy.logfatal(fault)
+    return None if faults else goals
 
 
 def wait(condition, seconds):
@@ -39,9 +67,8 @@ def wait(condition, seconds):
     return condition()
 
 
-def align(client, part, patience):
+def align(client, name, goal, patience):
     """Has one part aligned; what became of it, for the report."""
-    name = part.get('part', part.get('scene', 'part'))
     reported = [0]
 
     def on_feedback(feedback):
@@ -51,7 +78,7 @@ def align(client, part, patience):
             rospy.loginfo('%s: %3.0f %%, %.3g mm from the axis of the slot', name, 100.0 * feedback.progress,
                           1e3 * feedback.misalignment)
 
-    client.send_goal(goal_of(part), feedback_cb=on_feedback)
+    client.send_goal(goal, feedback_cb=on_feedback)
     if not wait(lambda: client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE), patience):
         rospy.logwarn('%s: takes too long: cancelled', name)
         client.cancel_goal()
@@ -69,12 +96,16 @@ def main():
     rospy.init_node('cell')
     server = rospy.resolve_name(rospy.get_param('~aligner', 'aligner')) + '/align'
     parts = rospy.get_param('~parts')
+    goals = goals_of(parts)
+    if goals is None:
+        return 1
     client = actionlib.SimpleActionClient(server, AlignAction)
     publisher = rospy.Publisher('~report', String, queue_size=1, latch=True)
     if not wait(lambda: client.action_client.wait_for_server(rospy.Duration(0.001)), 30.0):
         rospy.logfatal('%s does not answer', server)
         return 1
-    reports = [align(client, part, rospy.get_param('~patience', 120.0)) for part in parts]
+    patience = rospy.get_param('~patience', 120.0)
+    reports = [align(client, name_of(part), goal, patience) for part, goal in zip(parts, goals)]
     for report in reports:
         if 'outcome' in report:
             rospy.loginfo('%(part)s: %(outcome)s after %(duration_ms).3g ms, %(impacts)d impacts, peak %(peak_force).3g N',

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """The example of a cell: what it reports is what the command line computes with the same settings."""
 import json
+import subprocess
 
+import rospy
 import rostest
 import yaml
 from std_msgs.msg import String
@@ -35,6 +37,19 @@ class Cell(AlignerTestCase):
             time_unit, force_unit = (1.0, 1.0) if scene == 'gripper_si' else (5e-3, 8.0)
             self.assertAlmostEqual(part['duration_ms'], 1e3 * expected['duration'] * time_unit, places=9)
             self.assertAlmostEqual(part['peak_force'], max(expected['peak_force'].values()) * force_unit, places=9)
+
+    def test_faults_of_all_parts_are_told_before_the_first_is_aligned(self):
+        rospy.set_param('/faulty/parts', [{'part': 'good', 'scene': 'fig2'},
+                                          {'part': 'misspelt', 'scene': 'fig2', 'time_limt': 1.0},
+                                          {'part': 'text', 'time_limit': 'long'}, {'time_limit': [1.0]}])
+        cell = subprocess.run([program('cell.py'), '__name:=faulty'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, timeout=20.0)
+        self.assertEqual(cell.returncode, 1)
+        self.assertNotIn('Traceback', cell.stdout)
+        for words in ('/faulty/parts[1] (misspelt): time_limt: no field', "/faulty/parts[2] (text): time_limit: 'long'",
+                      '/faulty/parts[3] (part): time_limit: [1.0]'):
+            self.assertIn(words, cell.stdout)
+        self.assertNotIn('good', cell.stdout)
 
 
 if __name__ == '__main__':
