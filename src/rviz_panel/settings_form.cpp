@@ -12,6 +12,14 @@
 #include "node/quantity_text.h"
 
 namespace vibratory_alignment {
+namespace {
+
+/// With three digits at least, and no exponent.
+QString plain(double number) {
+  return number < 999.5 ? QString::number(number, 'g', 3) : QString::number(number, 'f', 0);
+}
+
+}  // namespace
 
 SettingsForm::SettingsForm(Change change, QWidget* parent) : QWidget(parent), change_(std::move(change)) {
   setObjectName("settings");
@@ -46,6 +54,7 @@ void SettingsForm::add_number(QGridLayout& grid, const char* title, const char* 
   number.field->setObjectName(setting);
   number.field->setRange(least.*value, most.*value);
   number.field->setToolTip(QString("from %1 to %2; Enter puts it in force").arg(least.*value).arg(most.*value));
+  number.note->setObjectName(QString(setting) + "_note");
   number.note->setStyleSheet("color: gray");
   QObject::connect(number.field, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
                    [this, setting](double entered) { change_(setting, entered); });
@@ -86,10 +95,8 @@ QString SettingsForm::unit_of(const Number& number, const SettingUnits& units) c
 QString SettingsForm::note_of(const Number& number, double value, const SettingUnits& units) const {
   if (number.setting == "time_scale") {
     if (value == 0.0) return "as fast as it goes";
-    return value == 1.0 ? QString("real time")
-                        : QString("%1 times %2")
-                              .arg(value < 1.0 ? 1.0 / value : value, 0, 'g', 3)
-                              .arg(value < 1.0 ? "slower" : "faster");
+    if (value == 1.0) return "real time";
+    return plain(value < 1.0 ? 1.0 / value : value) + (value < 1.0 ? " times slower" : " times faster");
   }
   if (number.setting == "phase") return QString("%1\u00B0").arg(value * 180.0 / M_PI, 0, 'g', 3);
   if (units.si || !units.has_scales) return {};

@@ -5,6 +5,7 @@ import subprocess
 import tempfile
 
 import rosbag
+import rospkg
 import rostest
 import yaml
 from tf2_msgs.msg import TFMessage
@@ -41,6 +42,13 @@ class View(AlignerTestCase):
     def test_is_of_the_aligner_that_is_asked_for(self):
         for side in HALF_WIDTHS:
             self.assert_shows(self.view('/%s/aligner' % side), side)
+
+    def test_file_for_rviz_fits_fig2_as_it_is(self):
+        with open(os.path.join(rospkg.RosPack().get_path('vibratory_alignment'), 'rviz', 'aligner.rviz')) as file:
+            drawn = yaml.safe_load(file)['Visualization Manager']['Views']['Current']
+        fitted = self.view('/right/aligner')['Visualization Manager']['Views']['Current']
+        for length in ('Distance', 'Near Clip Distance'):
+            self.assertAlmostEqual(fitted[length] / drawn[length], 1.0, places=9)
 
     def test_name_is_one_of_the_namespace(self):
         for side in HALF_WIDTHS:

@@ -151,6 +151,19 @@ TEST_F(PanelTest, ShowsWhatOthersChange) {
   EXPECT_EQ(number("frequency").text(), "23.5");
 }
 
+TEST_F(PanelTest, SaysInPlainWordsHowSlowItIs) {
+  const auto wait_for = [this](const char* words) {
+    return wait_until([&] { return says("time_scale_note", words); });
+  };
+  change_elsewhere("time_scale", 0.0005);
+  EXPECT_TRUE(wait_for("2000 times slower")) << child<QLabel>(panel_, "time_scale_note").text().toStdString();
+  change_elsewhere("time_scale", 0.0123);
+  EXPECT_TRUE(wait_for("81.3 times slower"));
+  change_elsewhere("time_scale", 1000.0);
+  EXPECT_TRUE(wait_for("1000 times faster"));
+  change_elsewhere("time_scale", 0.005);
+}
+
 TEST_F(PanelTest, LeavesAFieldAloneInWhichSomeoneTypes) {
   panel_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&panel_));
