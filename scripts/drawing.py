@@ -4,6 +4,7 @@ A script that imports this ends with a message where there is no matplotlib.
 """
 
 import sys
+import textwrap
 
 try:
     import matplotlib
@@ -44,6 +45,16 @@ def tidy(axes):
         axes.spines[side].set_visible(False)
 
 
+def set_title(sheet, text):
+    """Above all panels, letter by letter ($ begins no formula), in as many lines as it takes."""
+    sheet.suptitle(textwrap.fill(text, 70), fontsize=11, parse_math=False)
+
+
+def set_force_limits(axes):
+    """From 0, with room for the legend above the curves."""
+    axes.set_ylim(0.0, 1.25 * axes.get_ylim()[1])
+
+
 def draw_motion(panels, motion, units=None, force_note=""):
     """The panels a, b, ... of a trial; where their number is odd the last one spans the sheet.
 
@@ -69,7 +80,7 @@ def draw_motion(panels, motion, units=None, force_note=""):
         if time[-1] > time[0]:
             axes.set_xlim(time[0], time[-1])
         if columns[0].startswith("n"):
-            axes.set_ylim(bottom=0.0)
+            set_force_limits(axes)
             axes.set_title(force_note, fontsize=8, color="0.4")
         if len(columns) > 1:
             axes.legend(frameon=False, ncol=2, fontsize=8, loc="upper right")

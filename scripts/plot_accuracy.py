@@ -7,7 +7,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from drawing import plt  # noqa: E402
+from drawing import plt, set_title  # noqa: E402
 
 # Marks as well as colours tell the lines apart, also in grey and for those who see colours otherwise (Okabe and Ito).
 STYLES = {
@@ -48,7 +48,7 @@ def draw(lines, floor, title, target, kind):
     axes.set_xlim(most, least)  # error falls from left to right
     axes.set_xlabel("error of the pose at the end (dimensionless)")
     axes.set_ylabel("CPU time of a trial [µs]")
-    axes.set_title(title)
+    set_title(figure, title)
     axes.grid(True, which="major", color="0.88", linewidth=0.6)
     axes.legend(frameon=False)
     figure.savefig(target, dpi=160, format=kind, metadata={"Date": None} if kind == "svg" else None)

@@ -15,7 +15,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from drawing import draw_motion, plt, set_style, tidy  # noqa: E402
+from drawing import draw_motion, plt, set_style, set_title, tidy  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
 
 # Marks as well as colours tell the curves apart, also in grey and for those who see colours otherwise (Okabe and Ito).
@@ -136,7 +136,7 @@ def main():
     try:
         for figure in json.loads((folder / "figures.json").read_text()):
             sheet = DRAW[figure["kind"]](figure, read_rows(folder / (figure["name"] + ".csv")))
-            sheet.suptitle(figure["title"], fontsize=11)
+            set_title(sheet, figure["title"])
             sheet.savefig(folder / (figure["name"] + ".svg"), metadata={"Date": None})
             sheet.savefig(folder / (figure["name"] + ".png"), dpi=150)
             plt.close(sheet)

@@ -101,14 +101,14 @@ def outcome_text(result):
     text = result.outcome.replace("_", " ")
     if result.duration != result.duration or not result.time:  # NaN: it did not align
         return text
-    text += r" after $\tau$ = %.4g" % (result.duration * result.tau / result.time)
+    text += " after τ = %.4g" % (result.duration * result.tau / result.time)
     return text + (" (%.4g ms)" % (1e3 * result.duration) if result.has_scales else "")
 
 
 def draw(motion, options, title, note):
     # What is refused is refused before the seconds that matplotlib takes to load.
     sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-    from drawing import FIG2_PANELS, draw_motion, set_style
+    from drawing import FIG2_PANELS, draw_motion, set_style, set_title
 
     units = {}
     if options.si:
@@ -117,7 +117,7 @@ def draw(motion, options, title, note):
             units[column] = unit
     set_style()
     sheet = draw_motion(FIG2_PANELS, motion, units, note)
-    sheet.suptitle(title, fontsize=11)
+    set_title(sheet, title)
     kind = options.format or os.path.splitext(options.picture)[1][1:]
     sheet.savefig(options.picture, dpi=150, format=kind, metadata={"Date": None} if kind == "svg" else None)
 

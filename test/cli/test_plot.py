@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import signal
 import struct
 import unittest
@@ -9,6 +10,7 @@ import xml.etree.ElementTree
 
 from align_test_case import AlignTestCase
 
+SVG = "{http://www.w3.org/2000/svg}"
 PANELS = ["a)", "b)", "c)", "d)", "e)", "f)"]
 
 
@@ -25,17 +27,26 @@ class PlotTest(AlignTestCase):
 
     def paths(self, path):
         """The curves of an SVG file; comments hold the words."""
-        for group in xml.etree.ElementTree.parse(path).iter("{http://www.w3.org/2000/svg}path"):
+        for group in xml.etree.ElementTree.parse(path).iter(SVG + "path"):
             clipped = "clip-path" in group.attrib and "stroke: #b0b0b0" not in group.get("style", "")
             if clipped and ("#0072b2" in group.get("style", "") or "#d55e00" in group.get("style", "")):
                 yield group
+
+    def points(self, group):
+        """Of a curve: how far each point is from the left of the picture, and from its top."""
+        numbers = [float(word) for word in group.get("d").split() if word not in "MLz"]
+        return numbers[::2], numbers[1::2]
+
+    def words(self, path):
+        """The texts of an SVG file, line by line."""
+        with open(path) as file:
+            return re.findall("<!-- (.*) -->", file.read())
 
     def tops(self, path):
         """Where each curve of an SVG file is highest, from 0 at its left end to 1; None for a level one."""
         found = []
         for group in self.paths(path):
-            numbers = [float(word) for word in group.get("d").split() if word not in "MLz"]
-            across, down = numbers[::2], numbers[1::2]
+            across, down = self.points(group)
             top = across[down.index(min(down))]
             level = max(down) - min(down) < 1e-6
             found.append(None if level else (top - across[0]) / (across[-1] - across[0]))
@@ -79,6 +90,21 @@ class PlotTest(AlignTestCase):
                 self.assertIn("<!-- %s -->" % words, texts[-1])
             self.assert_curves(picture, rows)
         self.assertEqual(texts[0], texts[1], "the same trial gives the same picture")
+
+    def test_a_title_is_drawn_as_it_is_written_and_in_lines_that_fit(self):
+        title = r"Costs a $ or $\nope$, " + 20 * "pressed harder " + "and again"
+        self.plot(self.csv, self.path("run.svg"), "--title", title)
+        lines = [words for words in self.words(self.path("run.svg")) if words in title]
+        self.assertEqual(" ".join(lines), title)
+        self.assertLess(max(map(len, lines)), 75)
+
+    def test_the_legend_lies_above_the_forces(self):
+        self.plot(self.csv, self.path("run.svg"))
+        legend = next(group for group in xml.etree.ElementTree.parse(self.path("run.svg")).iter(SVG + "g")
+                      if group.get("id") == "legend_1")
+        sign = next(path for path in legend.iter(SVG + "path") if "#0072b2" in path.get("style", ""))
+        force = list(self.paths(self.path("run.svg")))[-2]
+        self.assertGreater(min(self.points(force)[1]), self.points(sign)[1][0] + 3.0)
 
     def test_the_ending_decides_on_the_format(self):
         self.plot(self.csv, self.path("run.png"), "--si")
