@@ -33,6 +33,12 @@ MOTION_SYMBOLS = {
 # Curves in the paper's order and pairing, Fig. 2 a to f.
 FIG2_PANELS = (("x",), ("y",), ("vx",), ("vy",), ("phi",), ("n1", "n2"))
 
+# A curve that moves by less is drawn as level, in whatever units: an axis that small would show rounding.
+ROUNDING = 1e-9
+
+# Forces as tables have them.
+AT_SAMPLES = "as sampled: peaks between rows are missing"
+
 
 def set_style():
     plt.rcParams.update({"font.size": 10, "mathtext.fontset": "cm", "svg.hashsalt": "figures", "hatch.linewidth": 0.6})
@@ -50,15 +56,25 @@ def set_title(sheet, text):
     sheet.suptitle(textwrap.fill(text, 70), fontsize=11, parse_math=False)
 
 
+def widen_rounding(axes):
+    """An axis of rounding becomes as wide as that of a level curve."""
+    low, high = axes.get_ylim()
+    if high - low < ROUNDING:
+        margin = 0.05 * max(abs(low), abs(high))
+        margin = margin if margin > ROUNDING else 0.05
+        axes.set_ylim(low - margin, high + margin)
+
+
 def set_force_limits(axes):
     """From 0, with room for the legend above the curves."""
     axes.set_ylim(0.0, 1.25 * axes.get_ylim()[1])
 
 
-def draw_motion(panels, motion, units=None, force_note=""):
+def draw_motion(panels, motion, force_note, units=None):
     """The panels a, b, ... of a trial; where their number is odd the last one spans the sheet.
 
-    motion maps each column to its values, "t" to the instants; units may map a column to the unit that its axis names.
+    motion maps each column to its values, "t" to the instants; force_note says at which instants the forces are known;
+    units may map a column to the unit that its axis names.
     """
     units = units or {}
     lines = (len(panels) + 1) // 2
@@ -79,9 +95,10 @@ def draw_motion(panels, motion, units=None, force_note=""):
         axes.set_title("%s)" % "abcdefg"[number], loc="left", fontsize=9)
         if time[-1] > time[0]:
             axes.set_xlim(time[0], time[-1])
+        widen_rounding(axes)
         if columns[0].startswith("n"):
             set_force_limits(axes)
-            axes.set_title(force_note, fontsize=8, color="0.4")
+            axes.set_title(force_note, loc="right", fontsize=8, color="0.4")
         if len(columns) > 1:
             axes.legend(frameon=False, ncol=2, fontsize=8, loc="upper right")
         axes.set_xlabel("$t$ [%s]" % units["t"] if "t" in units else r"$\tau$", labelpad=1)

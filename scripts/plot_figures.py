@@ -15,7 +15,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from drawing import draw_motion, plt, set_style, set_title, tidy  # noqa: E402
+from drawing import AT_SAMPLES, draw_motion, plt, set_style, set_title, tidy  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
 
 # Marks as well as colours tell the curves apart, also in grey and for those who see colours otherwise (Okabe and Ito).
@@ -45,7 +45,7 @@ def read_rows(path):
 
 
 def draw_trial(figure, rows):
-    return draw_motion(figure["panels"], {column: [row[column] for row in rows] for column in rows[0]})
+    return draw_motion(figure["panels"], {column: [row[column] for row in rows] for column in rows[0]}, AT_SAMPLES)
 
 
 def draw_curves(figure, rows):

@@ -105,10 +105,10 @@ def outcome_text(result):
     return text + (" (%.4g ms)" % (1e3 * result.duration) if result.has_scales else "")
 
 
-def draw(motion, options, title, note):
+def draw(motion, options, title, from_bag):
     # What is refused is refused before the seconds that matplotlib takes to load.
     sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-    from drawing import FIG2_PANELS, draw_motion, set_style, set_title
+    from drawing import AT_SAMPLES, FIG2_PANELS, draw_motion, set_style, set_title
 
     units = {}
     if options.si:
@@ -116,7 +116,8 @@ def draw(motion, options, title, note):
             motion[column] = [factor * value for value in motion[column]]
             units[column] = unit
     set_style()
-    sheet = draw_motion(FIG2_PANELS, motion, units, note)
+    note = "each the largest since the message before" if from_bag else AT_SAMPLES
+    sheet = draw_motion(FIG2_PANELS, motion, note, units)
     set_title(sheet, title)
     kind = options.format or os.path.splitext(options.picture)[1][1:]
     sheet.savefig(options.picture, dpi=150, format=kind, metadata={"Date": None} if kind == "svg" else None)
@@ -140,9 +141,8 @@ def main():
     except (BadTrial, OSError, UnicodeDecodeError, csv.Error) as error:
         print("align: %s: %s" % (options.trial, error), file=sys.stderr)
         sys.exit(2)
-    note = "each the largest since the message before" if from_bag else ""
     try:
-        draw(motion, options, options.title or outcome or os.path.basename(options.trial), note)
+        draw(motion, options, options.title or outcome or os.path.basename(options.trial), from_bag)
     except OSError as error:
         sys.exit("align: %s: cannot be written: %s" % (options.picture, error.strerror or error))
 

@@ -98,6 +98,18 @@ class PlotTest(AlignTestCase):
         self.assertEqual(" ".join(lines), title)
         self.assertLess(max(map(len, lines)), 75)
 
+    def test_says_at_which_instants_the_forces_are_known(self):
+        for trial, note in ((self.csv, "as sampled: peaks between rows are missing"),
+                            (self.bag, "each the largest since the message before")):
+            self.plot(trial, self.path("run.svg"))
+            self.assertIn(note, self.words(self.path("run.svg")))
+
+    def test_rounding_is_not_blown_up(self):
+        header = "t,x,y,phi,vx,vy,n1,n2"
+        rows = ["%d,0.1,%r,%r,0,0,%r,0" % (t, 0.9 + t % 2 * 1e-15, t % 2 * 1e-15, t % 2 * 1e-15) for t in range(9)]
+        self.plot(self.write("rounding.csv", "\n".join([header] + rows)), self.path("rounding.svg"))
+        self.assertEqual(self.tops(self.path("rounding.svg")), 7 * [None])
+
     def test_the_legend_lies_above_the_forces(self):
         self.plot(self.csv, self.path("run.svg"))
         legend = next(group for group in xml.etree.ElementTree.parse(self.path("run.svg")).iter(SVG + "g")
