@@ -7,6 +7,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import interrupts  # noqa: E402, F401  (before what takes its time)
 from drawing import plt, set_title  # noqa: E402
 
 # Marks as well as colours tell the lines apart, also in grey and for those who see colours otherwise (Okabe and Ito).

@@ -15,6 +15,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import interrupts  # noqa: E402, F401  (before what takes its time)
 from drawing import AT_SAMPLES, draw_motion, plt, set_style, set_title, tidy  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
 

@@ -11,6 +11,9 @@ import csv
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import interrupts  # noqa: E402, F401  (before what takes its time)
+
 COLUMNS = ("t", "x", "y", "phi", "vx", "vy", "n1", "n2")
 STATE_TYPE = "vibratory_alignment/AlignerState"
 SHOWN_SI = {"t": (1e3, "ms"), "x": (1e3, "mm"), "y": (1e3, "mm"), "vx": (1e3, "mm/s"), "vy": (1e3, "mm/s"),
@@ -107,7 +110,6 @@ def outcome_text(result):
 
 def draw(motion, options, title, from_bag):
     # What is refused is refused before the seconds that matplotlib takes to load.
-    sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
     from drawing import AT_SAMPLES, FIG2_PANELS, draw_motion, set_style, set_title
 
     units = {}

@@ -5,13 +5,20 @@ import os
 import re
 import signal
 import struct
+import subprocess
+import time
 import unittest
 import xml.etree.ElementTree
 
-from align_test_case import AlignTestCase
+from align_test_case import SOURCE_ROOT, AlignTestCase
 
 SVG = "{http://www.w3.org/2000/svg}"
 PANELS = ["a)", "b)", "c)", "d)", "e)", "f)"]
+
+
+def heed_interrupts():
+    """Of a process begun by a job in the background, which ignores them."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 class PlotTest(AlignTestCase):
@@ -172,6 +179,28 @@ class PlotTest(AlignTestCase):
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
         self.assertIn("align: interrupted; no picture is written", process.stderr)
         self.assertEqual(sorted(os.listdir(self.directory)), before)
+
+    def interrupted(self, *command):
+        """Exit status and words of a command to which Ctrl-C comes while it loads what takes longest."""
+        loading = self.path("loading")
+        self.write("modules/matplotlib.py", "import time; open(%r, 'w'); time.sleep(60)" % loading)
+        environment = dict(os.environ, ROS_PACKAGE_PATH=SOURCE_ROOT, PYTHONPATH=self.path("modules"))
+        process = subprocess.Popen(command, cwd=self.directory, env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, universal_newlines=True, start_new_session=True,
+                                   preexec_fn=heed_interrupts)
+        while not os.path.exists(loading):
+            self.assertIsNone(process.poll())
+            time.sleep(0.05)
+        os.remove(loading)
+        os.killpg(process.pid, signal.SIGINT)
+        words, _ = process.communicate(timeout=30)
+        return process.returncode, words
+
+    def test_an_interrupt_ends_a_script_without_words(self):
+        os.mkdir(self.path("modules"))
+        for script in ("plot_accuracy.py", "plot_figures.py"):
+            words = self.interrupted(os.path.join(SOURCE_ROOT, "scripts", script), self.directory)
+            self.assertEqual(words, (-signal.SIGINT, ""), script)
 
     def test_missing_matplotlib_is_named(self):
         os.mkdir(self.path("modules"))
