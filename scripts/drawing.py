@@ -41,7 +41,15 @@ AT_SAMPLES = "as sampled: peaks between rows are missing"
 
 
 def set_style():
-    plt.rcParams.update({"font.size": 10, "mathtext.fontset": "cm", "svg.hashsalt": "figures", "hatch.linewidth": 0.6})
+    plt.rcParams.update({
+        "font.size": 10,
+        "mathtext.fontset": "cm",
+        "svg.hashsalt": "figures",
+        "hatch.linewidth": 0.6,
+        # numbers beside an axis are those of the curve, not what is to be added to 9e-1
+        "axes.formatter.useoffset": False,
+        "axes.formatter.use_mathtext": True,
+    })
 
 
 def tidy(axes):
@@ -66,21 +74,22 @@ def widen_rounding(axes):
 
 
 def set_force_limits(axes):
-    """From 0, with room for the legend above the curves."""
-    axes.set_ylim(0.0, 1.25 * axes.get_ylim()[1])
+    """From 0, of which the curves are still seen, with room for the legend above them."""
+    top = 1.25 * axes.get_ylim()[1]
+    axes.set_ylim(-0.02 * top, top)
 
 
-def draw_motion(panels, motion, force_note, units=None):
+def draw_motion(panels, motion, force_note, time=r"$\tau$", units=None):
     """The panels a, b, ... of a trial; where their number is odd the last one spans the sheet.
 
     motion maps each column to its values, "t" to the instants; force_note says at which instants the forces are known;
-    units may map a column to the unit that its axis names.
+    time names the axis of time; units may map a column to the unit that its axis names.
     """
     units = units or {}
     lines = (len(panels) + 1) // 2
     sheet = plt.figure(figsize=(7.2, 1.75 * lines + 0.4), layout="constrained")
     grid = sheet.add_gridspec(lines, 2)
-    time = motion["t"]
+    instants = motion["t"]
 
     def label(*columns):
         unit = units.get(columns[0], "")
@@ -90,17 +99,19 @@ def draw_motion(panels, motion, force_note, units=None):
         wide = number == len(panels) - 1 and len(panels) % 2 == 1
         axes = sheet.add_subplot(grid[number // 2, :] if wide else grid[number // 2, number % 2])
         for column, colour in zip(columns, (BLUE, ORANGE)):
-            axes.plot(time, motion[column], color=colour, linewidth=0.9, label=MOTION_SYMBOLS[column])
+            axes.plot(instants, motion[column], color=colour, linewidth=0.9, label=MOTION_SYMBOLS[column])
         axes.set_ylabel(label(*columns))
         axes.set_title("%s)" % "abcdefg"[number], loc="left", fontsize=9)
-        if time[-1] > time[0]:
-            axes.set_xlim(time[0], time[-1])
+        axes.yaxis.set_offset_position("right")  # a power of ten, which on the left pushes the letter up
+        if instants[-1] > instants[0]:
+            axes.set_xlim(instants[0], instants[-1])
         widen_rounding(axes)
         if columns[0].startswith("n"):
             set_force_limits(axes)
             axes.set_title(force_note, loc="right", fontsize=8, color="0.4")
         if len(columns) > 1:
             axes.legend(frameon=False, ncol=2, fontsize=8, loc="upper right")
-        axes.set_xlabel("$t$ [%s]" % units["t"] if "t" in units else r"$\tau$", labelpad=1)
+        axes.set_xlabel(time, labelpad=1)
         tidy(axes)
+    sheet.align_ylabels()
     return sheet

@@ -112,14 +112,16 @@ def draw(motion, options, title, from_bag):
     # What is refused is refused before the seconds that matplotlib takes to load.
     from drawing import AT_SAMPLES, FIG2_PANELS, draw_motion, set_style, set_title
 
+    # A CSV file does not tell whether its time is dimensionless.
+    time, note = (r"$\tau$", "each the largest since the message before") if from_bag else ("$t$", AT_SAMPLES)
     units = {}
     if options.si:
         for column, (factor, unit) in SHOWN_SI.items():
             motion[column] = [factor * value for value in motion[column]]
             units[column] = unit
+        time = "$t$ [%s]" % units["t"]
     set_style()
-    note = "each the largest since the message before" if from_bag else AT_SAMPLES
-    sheet = draw_motion(FIG2_PANELS, motion, note, units)
+    sheet = draw_motion(FIG2_PANELS, motion, note, time, units)
     set_title(sheet, title)
     kind = options.format or os.path.splitext(options.picture)[1][1:]
     sheet.savefig(options.picture, dpi=150, format=kind, metadata={"Date": None} if kind == "svg" else None)

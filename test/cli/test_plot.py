@@ -106,10 +106,17 @@ class PlotTest(AlignTestCase):
         self.assertLess(max(map(len, lines)), 75)
 
     def test_says_at_which_instants_the_forces_are_known(self):
-        for trial, note in ((self.csv, "as sampled: peaks between rows are missing"),
-                            (self.bag, "each the largest since the message before")):
+        for trial, symbol, note in ((self.csv, "$t$", "as sampled: peaks between rows are missing"),
+                                    (self.bag, r"$\tau$", "each the largest since the message before")):
             self.plot(trial, self.path("run.svg"))
-            self.assertIn(note, self.words(self.path("run.svg")))
+            words = self.words(self.path("run.svg"))
+            self.assertIn(note, words)
+            self.assertEqual(words.count(symbol), len(PANELS))
+
+    def test_numbers_beside_an_axis_are_those_of_the_curve(self):
+        rows = ["%d,0,%r,0,0,0,0,0" % (t, 0.9 + t * 1e-6) for t in range(9)]
+        self.plot(self.write("high.csv", "\n".join(["t,x,y,phi,vx,vy,n1,n2"] + rows)), self.path("high.svg"))
+        self.assertTrue(any("0.900005" in words for words in self.words(self.path("high.svg"))))
 
     def test_rounding_is_not_blown_up(self):
         header = "t,x,y,phi,vx,vy,n1,n2"
