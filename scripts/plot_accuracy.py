@@ -65,7 +65,10 @@ def main():
     lines, floor = read_lines(arguments.table)
     if not lines:
         sys.exit(arguments.table + ": holds no run")
-    draw(lines, floor, arguments.title, arguments.picture, arguments.format)
+    try:
+        draw(lines, floor, arguments.title, arguments.picture, arguments.format)
+    except OSError as error:
+        sys.exit("plot_accuracy.py: %s: cannot be written: %s" % (arguments.picture, error.strerror or error))
 
 
 if __name__ == "__main__":

@@ -89,6 +89,13 @@ class AccuracyTest(AlignTestCase):
         self.assertEqual(process.returncode, 1)
         self.assertIn("stdout", process.stderr)
 
+    def test_a_picture_that_cannot_be_written_is_told(self):
+        os.symlink("/dev/full", self.path("full.png"))
+        process = self.align("accuracy", self.scene(), "--solvers", "event", "--plot", self.path("full.png"))
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("No space left on device", process.stderr)
+        self.assertNotIn("Traceback", process.stderr)
+
     def test_an_interrupt_ends_it_at_the_next_step(self):
         # the reference alone takes seconds
         path = self.path("a.csv")
