@@ -13,6 +13,7 @@ import json
 import os
 import pathlib
 import sys
+import textwrap
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import interrupts  # noqa: E402, F401  (before what takes its time)
@@ -32,11 +33,13 @@ SYMBOLS = {
     "excitation.amplitude": r"$A$",
     "initial.x": r"$x_C|_{\tau=0}$",
     "slot.clearance": r"$\delta$",
+    "aligned && nonimpact_time <= 0.2 * duration": "impact mode prevails",
 }
 
 
-def symbol(column):
-    return SYMBOLS.get(column, column)
+def symbol(formula):
+    """Words for a formula, or the formula itself, in as many lines as it takes."""
+    return SYMBOLS.get(formula) or textwrap.fill(formula, 50)
 
 
 def read_rows(path):
@@ -50,7 +53,7 @@ def draw_trial(figure, rows):
 
 
 def draw_curves(figure, rows):
-    """Medians with their quartiles; hollow where impact mode does not prevail; nothing where too few samples align."""
+    """Medians or means with quartiles; hollow where the mark does not hold; nothing where too few samples align."""
     curves = collections.OrderedDict()
     for row in rows:
         curves.setdefault(tuple(row[key] for key in figure["each"]), []).append(row)
@@ -65,7 +68,7 @@ def draw_curves(figure, rows):
         value = [row["median"] for row in points]
         label = ", ".join("%s = %g" % (symbol(name), part) for name, part in zip(figure["each"], key))
         if all(v != v for v in value):
-            label += " (too few align)"
+            label = (label + " (too few values)").strip()
         axes.plot(at, value, color=colour, linewidth=1.0, label=label, marker=mark, markersize=4.5,
                   markerfacecolor="white", zorder=3)
         marked = [(a, v) for a, v, row in zip(at, value, points) if row["mark"] >= figure["share"]]
@@ -79,10 +82,19 @@ def draw_curves(figure, rows):
     axes.set_xlabel(symbol(along))
     axes.set_ylabel(symbol(figure["of"]))
     axes.set_ylim(bottom=0.0)
-    axes.set_title("medians and quartiles; filled: impact mode prevails", fontsize=9)
+    axes.set_title(textwrap.fill(what_is_drawn(figure), 85), fontsize=9)
     tidy(axes)
-    axes.legend(frameon=False, fontsize=9, ncol=len(curves) if len(curves) < 4 else 2)
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend(frameon=False, fontsize=9, ncol=len(curves) if len(curves) < 4 else 2)
     return sheet
+
+
+def what_is_drawn(figure):
+    """The words below the title of curves."""
+    words = "%ss and quartiles" % figure["point"]
+    if "mark" in figure:
+        words += "; filled: %s in at least %g %%" % (symbol(figure["mark"]), 100 * figure["share"])
+    return words
 
 
 def edges(values):
@@ -109,7 +121,7 @@ def draw_region(figure, rows):
     axes.set_xlabel(symbol(x))
     axes.set_ylabel(symbol(y))
     bar = sheet.colorbar(shade, ax=axes)
-    bar.set_label("share of trials that align in impact mode")
+    bar.set_label("share of trials: " + symbol(figure["of"]))
     axes.set_title("not hatched: at least %g %%" % (100 * figure["share"]), fontsize=9)
     return sheet
 

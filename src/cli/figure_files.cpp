@@ -110,10 +110,13 @@ json description(const Figure& figure) {
       text["of"] = figure.measure.of;
       text["along"] = figure.measure.curves.along;
       text["each"] = figure.measure.curves.each;
+      text["point"] = point_statistic_words().at(static_cast<std::size_t>(figure.measure.curves.point));
       text["share"] = figure.measure.curves.share;
+      if (!figure.mark.empty()) text["mark"] = figure.mark;
       break;
     case Figure::Kind::region:
       text["kind"] = "region";
+      text["of"] = figure.measure.of;
       text["x"] = figure.measure.region.x;
       text["y"] = figure.measure.region.y;
       text["share"] = figure.measure.region.share;

@@ -1,8 +1,10 @@
 """`align reproduce`: ledger and figures of a facts file, on a small study of its own and on the shipped one."""
 
 import csv
+import html
 import json
 import os
+import re
 import signal
 import unittest
 
@@ -15,6 +17,16 @@ vary:
   - gripper.pressing_force: [0.2, 0.4, 5]
   - excitation.phase: {from: 0, to: 6}
 samples: {count: 4, seed: 1}
+"""
+
+MARKED_STUDY = """
+scene: scene.yaml
+set: {trial.time_limit: 2}
+vary:
+  - gripper.pressing_force: [0.2, 0.4, 5]
+  - initial.x: [0.2, 0.3]
+  - excitation.phase: {from: 0, to: 6}
+samples: {count: 2, seed: 1}
 """
 
 FACTS = """
@@ -36,6 +48,9 @@ facts:
 figures:
   - {name: motion, title: Motion, study: small}
   - {name: curve, title: Curve, study: small, of: peak_force_a1, curves: {along: gripper.pressing_force}}
+  - {name: marked, title: Marked, study: marked, of: end_time, mark: friction_impulse_a1 > 1,
+     curves: {along: gripper.pressing_force, each: initial.x, point: mean}}
+  - {name: region, title: Region, study: marked, of: end_time > 1, region: {x: gripper.pressing_force, y: initial.x}}
 """
 
 
@@ -44,6 +59,7 @@ class ReproduceTest(AlignTestCase):
         self.scene("small.yaml")
         os.replace(self.path("small.yaml"), self.path("scene.yaml"))
         self.write("small.yaml", STUDY.replace("small.yaml", "scene.yaml"))
+        self.write("marked.yaml", MARKED_STUDY)
         file = self.write("facts.yaml", facts)
         return self.align("reproduce", "--facts", file, "--output", self.path("out"), *arguments)
 
@@ -71,6 +87,17 @@ class ReproduceTest(AlignTestCase):
             self.assertLessEqual(float(row["median"]), float(row["high"]))
         for name in ("motion.svg", "motion.png", "curve.svg", "curve.png"):
             self.assertGreater(os.path.getsize(self.path("out/" + name)), 1000, name)
+
+    def words(self, picture):
+        with open(self.path("out/" + picture)) as file:
+            return re.findall("<!-- (.*) -->", html.unescape(file.read()))
+
+    def test_pictures_say_what_is_drawn(self):
+        process = self.reproduce()
+        self.assertEqual((process.returncode, process.stderr), (0, ""), "matplotlib finds nothing to say")
+        self.assertIn("medians and quartiles", self.words("curve.svg"))
+        self.assertIn("means and quartiles; filled: friction_impulse_a1 > 1 in at least 80 %", self.words("marked.svg"))
+        self.assertIn("share of trials: end_time > 1", self.words("region.svg"))
 
     def test_bounds_have_the_digits_of_the_facts_file(self):
         facts = FACTS.replace("at_least: 1,", "at_least: 0.123456,", 1)
