@@ -19,9 +19,12 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import interrupts  # noqa: E402, F401  (before what takes its time)
 from drawing import AT_SAMPLES, draw_motion, plt, set_style, set_title, tidy  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
+from matplotlib.transforms import ScaledTranslation  # noqa: E402
 
 # Marks as well as colours tell the curves apart, also in grey and for those who see colours otherwise (Okabe and Ito).
 STYLES = (("#0072B2", "o"), ("#D55E00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#E69F00", "v"), ("#56B4E9", "X"))
+
+MARK_SIZE = 4.5  # points
 
 # The paper's symbols.
 SYMBOLS = {
@@ -52,6 +55,13 @@ def draw_trial(figure, rows):
     return draw_motion(figure["panels"], {column: [row[column] for row in rows] for column in rows[0]}, AT_SAMPLES)
 
 
+def beside(axes, number, count):
+    """Where curve `number` of `count` is drawn, so that no bar covers another: all within the width of a mark, which is
+    less than reads as another value."""
+    shift = MARK_SIZE * (number / (count - 1) - 0.5) if count > 1 else 0.0
+    return axes.transData + ScaledTranslation(shift / 72.0, 0.0, axes.figure.dpi_scale_trans)
+
+
 def draw_curves(figure, rows):
     """Medians or means with quartiles; hollow where the mark does not hold; nothing where too few samples align."""
     curves = collections.OrderedDict()
@@ -59,29 +69,29 @@ def draw_curves(figure, rows):
         curves.setdefault(tuple(row[key] for key in figure["each"]), []).append(row)
     sheet, axes = plt.subplots(figsize=(6.0, 4.0), layout="constrained")
     along = figure["along"]
-    steps = sorted({row[along] for row in rows})
-    shift = 0.12 * (steps[-1] - steps[0]) / max(1, len(steps) - 1)
     for number, (key, points) in enumerate(curves.items()):
         colour, mark = STYLES[number % len(STYLES)]
-        offset = shift * (number - 0.5 * (len(curves) - 1))
-        at = [row[along] + offset for row in points]
+        place = beside(axes, number, len(curves))
+        at = [row[along] for row in points]
         value = [row["median"] for row in points]
         label = ", ".join("%s = %g" % (symbol(name), part) for name, part in zip(figure["each"], key))
         if all(v != v for v in value):
             label = (label + " (too few values)").strip()
-        axes.plot(at, value, color=colour, linewidth=1.0, label=label, marker=mark, markersize=4.5,
-                  markerfacecolor="white", zorder=3)
+        axes.plot(at, value, color=colour, linewidth=1.0, label=label, marker=mark, markersize=MARK_SIZE,
+                  markerfacecolor="white", zorder=3, transform=place)
         marked = [(a, v) for a, v, row in zip(at, value, points) if row["mark"] >= figure["share"]]
         if marked:
-            axes.plot(*zip(*marked), color=colour, linestyle="none", marker=mark, markersize=4.5, zorder=4)
+            axes.plot(*zip(*marked), color=colour, linestyle="none", marker=mark, markersize=MARK_SIZE, zorder=4,
+                      transform=place)
         present = [(a, v, v - row["low"], row["high"] - v) for a, v, row in zip(at, value, points) if v == v]
         if present:
             places, middles, below, above = zip(*present)
             axes.errorbar(places, middles, yerr=(below, above), color=colour, linestyle="none", elinewidth=0.8,
-                          capsize=1.8, zorder=2)
+                          capsize=1.8, zorder=2, transform=place)
     axes.set_xlabel(symbol(along))
     axes.set_ylabel(symbol(figure["of"]))
-    axes.set_ylim(bottom=0.0)
+    if axes.dataLim.ymin > 0.0:
+        axes.set_ylim(bottom=0.0)
     axes.set_title(textwrap.fill(what_is_drawn(figure), 85), fontsize=9)
     tidy(axes)
     if axes.get_legend_handles_labels()[1]:

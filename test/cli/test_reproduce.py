@@ -99,6 +99,15 @@ class ReproduceTest(AlignTestCase):
         self.assertIn("means and quartiles; filled: friction_impulse_a1 > 1 in at least 80 %", self.words("marked.svg"))
         self.assertIn("share of trials: end_time > 1", self.words("region.svg"))
 
+    def test_curves_stand_beside_each_other_by_less_than_a_mark(self):
+        self.reproduce("marked")
+        with open(self.path("out/marked.svg")) as file:
+            text = file.read()
+        first = [float(re.search('<use [^>]*x="([0-9.]*)"[^>]*fill: #ffffff; stroke: ' + colour, text).group(1))
+                 for colour in ("#0072b2", "#d55e00")]
+        self.assertGreater(first[1], first[0])
+        self.assertLessEqual(first[1] - first[0], 4.5001)
+
     def test_bounds_have_the_digits_of_the_facts_file(self):
         facts = FACTS.replace("at_least: 1,", "at_least: 0.123456,", 1)
         self.reproduce("--no-pictures", facts=facts.replace("at_least: 1,", "at_least: 0.75, at_most: 0.75,"))
