@@ -33,8 +33,8 @@ MOTION_SYMBOLS = {
 # Curves in the paper's order and pairing, Fig. 2 a to f.
 FIG2_PANELS = (("x",), ("y",), ("vx",), ("vy",), ("phi",), ("n1", "n2"))
 
-# A curve that moves by less is drawn as level, in whatever units: an axis that small would show rounding.
-ROUNDING = 1e-9
+# A curve that moves by less, beside 1 or its own size, is drawn as level: an axis that small would show rounding.
+ROUNDING = 1e-12
 
 # Forces as tables have them.
 AT_SAMPLES = "as sampled: peaks between rows are missing"
@@ -67,9 +67,9 @@ def set_title(sheet, text):
 def widen_rounding(axes):
     """An axis of rounding becomes as wide as that of a level curve."""
     low, high = axes.get_ylim()
-    if high - low < ROUNDING:
-        margin = 0.05 * max(abs(low), abs(high))
-        margin = margin if margin > ROUNDING else 0.05
+    size = max(abs(low), abs(high))
+    if high - low < ROUNDING * max(1.0, size):
+        margin = 0.05 * size if size > ROUNDING else 0.05
         axes.set_ylim(low - margin, high + margin)
 
 
