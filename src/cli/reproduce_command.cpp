@@ -64,7 +64,7 @@ struct ReproduceCommandOptions {
 /// UsageError.
 void keep_figures(FactBook& book, const std::vector<std::string>& asked) {
   if (asked.empty()) return;
-  std::set<std::string> studies;
+  std::set<std::string> names_kept, studies;
   std::vector<Figure> figures;
   for (const std::string& name : asked) {
     const auto found =
@@ -74,7 +74,8 @@ void keep_figures(FactBook& book, const std::vector<std::string>& asked) {
       for (const Figure& figure : book.figures) names += (names.empty() ? "" : ", ") + figure.name;
       throw UsageError("FIGURE: " + name + ": there is no such figure; there are " + names);
     }
-    if (studies.insert(found->measure.table.study).second) figures.push_back(*found);
+    studies.insert(found->measure.table.study);
+    if (names_kept.insert(name).second) figures.push_back(*found);
   }
   book.figures = figures;
   const auto is_not_shown = [&](const Fact& fact) {

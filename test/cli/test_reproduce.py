@@ -154,6 +154,12 @@ class ReproduceTest(AlignTestCase):
         self.assertTrue(os.path.exists(self.path("out/curve.csv")))
         self.assertFalse(os.path.exists(self.path("out/motion.csv")))
 
+    def test_figures_of_one_study_are_all_made(self):
+        process = self.reproduce("marked", "region", "marked", "--no-pictures")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        with open(self.path("out/figures.json")) as file:
+            self.assertEqual([figure["name"] for figure in json.load(file)], ["marked", "region"])
+
     def test_a_figure_brings_the_facts_that_other_studies_belong_to_as_well(self):
         self.write("more.yaml", STUDY.replace("small.yaml", "scene.yaml"))
         two_studies = """      - {name: other share, study: more, of: impact, rows: {take: share}, at_least: 1, scale: 1}
