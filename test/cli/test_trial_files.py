@@ -164,7 +164,9 @@ class LostFileTest(AlignTestCase):
             list(command) + [self.align_path, "trial", "small.yaml", "--until", "1e6", "--sample", "0.01"]
             + list(arguments), cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.kill)
+        deadline = time.monotonic() + 60
         while process.poll() is None and len(os.listdir(self.directory)) == before:
+            self.assertLess(time.monotonic(), deadline, "no file is begun")
             time.sleep(0.01)
         return process
 
