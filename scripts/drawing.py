@@ -66,7 +66,7 @@ def set_title(sheet, text):
 
 def widen_rounding(axes):
     """An axis of rounding becomes as wide as that of a level curve."""
-    low, high = axes.get_ylim()
+    low, high = axes.dataLim.intervaly
     size = max(abs(low), abs(high))
     if high - low < ROUNDING * max(1.0, size):
         margin = 0.05 * size if size > ROUNDING else 0.05

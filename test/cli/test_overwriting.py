@@ -71,6 +71,7 @@ class ReproductionTest(OverwritingTestCase):
     def test_its_inputs(self):
         self.scene("scene.yaml")
         self.write("small.yaml", test_reproduce.STUDY.replace("small.yaml", "scene.yaml"))
+        self.write("marked.yaml", test_reproduce.MARKED_STUDY)
         self.write("ledger.json", test_reproduce.FACTS)
         self.assert_kept(["reproduce", "--facts", "ledger.json", "--output", "."], "ledger.json: is the facts file")
         self.write("scene.csv", self.contents()["scene.yaml"])

@@ -182,7 +182,7 @@ figures:
         self.assertIn("1 of 2 facts met", process.stdout)
         self.assertIn("align: interrupted; not all pictures are drawn", process.stderr)
         self.assertEqual(sorted(os.listdir(self.path("out"))),
-                         ["curve.csv", "figures.json", "ledger.json", "ledger.md", "motion.csv"])
+                         ["curve.csv", "figures.json", "ledger.json", "ledger.md", "marked.csv", "motion.csv", "region.csv"])
         os.mkdir(self.path("modules"))
         self.write("modules/matplotlib.py", "raise ImportError('No module named matplotlib')")
         process = self.align("reproduce", "--facts", "facts.yaml", "--output", "out",
@@ -195,7 +195,7 @@ figures:
             process = self.reproduce("--set", setting)
             self.assertEqual(process.returncode, 2)
             self.assertIn("--set %s: " % setting, process.stderr)
-            self.assertIn("small.yaml varies %s:" % setting.split("=")[0], process.stderr)
+            self.assertIn("marked.yaml varies %s:" % setting.split("=")[0], process.stderr)
         process = self.reproduce("--set", "part.half_width=-1")
         self.assertEqual(process.returncode, 2)
         self.assertIn("(set by part.half_width=-1)", process.stderr)
