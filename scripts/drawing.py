@@ -37,7 +37,7 @@ FIG2_PANELS = (("x",), ("y",), ("vx",), ("vy",), ("phi",), ("n1", "n2"))
 ROUNDING = 1e-12
 
 # Forces as tables have them.
-AT_SAMPLES = "as sampled: peaks between rows are missing"
+AT_SAMPLES = "peaks between rows are missing"
 
 
 def set_style():

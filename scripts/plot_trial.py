@@ -113,7 +113,7 @@ def draw(motion, options, title, from_bag):
     from drawing import AT_SAMPLES, FIG2_PANELS, draw_motion, set_style, set_title
 
     # A CSV file does not tell whether its time is dimensionless.
-    time, note = (r"$\tau$", "each the largest since the message before") if from_bag else ("$t$", AT_SAMPLES)
+    time, note = (r"$\tau$", "largest since the message before") if from_bag else ("$t$", AT_SAMPLES)
     units = {}
     if options.si:
         for column, (factor, unit) in SHOWN_SI.items():

@@ -106,8 +106,8 @@ class PlotTest(AlignTestCase):
         self.assertLess(max(map(len, lines)), 75)
 
     def test_says_at_which_instants_the_forces_are_known(self):
-        for trial, symbol, note in ((self.csv, "$t$", "as sampled: peaks between rows are missing"),
-                                    (self.bag, r"$\tau$", "each the largest since the message before")):
+        for trial, symbol, note in ((self.csv, "$t$", "peaks between rows are missing"),
+                                    (self.bag, r"$\tau$", "largest since the message before")):
             self.plot(trial, self.path("run.svg"))
             words = self.words(self.path("run.svg"))
             self.assertIn(note, words)
