@@ -44,6 +44,7 @@ class ShardFile {
     const std::optional<SweepHead> head = next(line) ? parse_head(line) : std::nullopt;
     if (!head || !next(header_)) refuse("is no file of `align sweep --csv`");
     head_ = *head;
+    column_count_ = cells_of(header_).size();
   }
 
   const std::string& path() const { return path_; }
@@ -62,9 +63,10 @@ class ShardFile {
       refuse("ends before trial " + std::to_string(trial) + ": the sweep did not end; continue it with --resume");
     if (line.substr(0, line.find(',')) != std::to_string(trial))
       refuse("has another line where that of trial " + std::to_string(trial) + " should be: the file was changed");
-    if (cell_count(line) != cell_count(header_))
-      refuse("line " + std::to_string(line_number_) + " has " + counted(cell_count(line), "cell") + ", not " +
-             std::to_string(cell_count(header_)) + ": the file was changed");
+    const std::size_t cells = cells_of(line).size();
+    if (cells != column_count_)
+      refuse("line " + std::to_string(line_number_) + " has " + counted(cells, "cell") + ", not " +
+             std::to_string(column_count_) + ": the file was changed");
   }
 
   /// Throws UsageError unless all has been read.
@@ -80,6 +82,7 @@ class ShardFile {
   std::ifstream file_;
   SweepHead head_;
   std::string header_;
+  std::size_t column_count_ = 0;
   std::size_t line_number_ = 0;  ///< of the line read last
 };
 

@@ -48,16 +48,6 @@ std::string row_text(const TrialRow& row, const std::vector<VariedValue>& values
   return line + ',' + cell(row.reason);
 }
 
-std::size_t cell_count(const std::string& line) {
-  std::size_t count = 1;
-  bool quoted = false;  // a quotation mark within quotes is doubled: it ends them and begins them again
-  for (const char c : line) {
-    quoted = quoted != (c == '"');
-    if (c == ',' && !quoted) ++count;
-  }
-  return count;
-}
-
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   bool quoted = false;

@@ -1,7 +1,6 @@
 // Rows of a study as lines of a CSV file.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,6 @@ std::string row_header(const std::vector<std::string>& varied);
 /// The row without line end; results have 17 digits, which give back the same double, or are empty where there are
 /// none.
 std::string row_text(const TrialRow& row, const std::vector<VariedValue>& values);
-
-/// How many cells a line has.
-std::size_t cell_count(const std::string& line);
 
 /// The cells of a line, without their quotation marks.
 std::vector<std::string> cells_of(const std::string& line);

@@ -130,14 +130,15 @@ std::uintmax_t SweepCsv::take_over(const std::string& path, const SeeRow& see_ro
   std::string line;
   lines.next(line);
   lines.next(line);
-  const std::size_t count = shard_size(head_.shard, head_.trials), cells = cell_count(header_);
+  const std::size_t count = shard_size(head_.shard, head_.trials), columns = cells_of(header_).size();
   while (lines.next(line)) {
     const std::string trial = std::to_string(head_.shard.number + rows_ * head_.shard.count);
     if (rows_ == count || line.substr(0, line.find(',')) != trial)
       refuse(path, "line " + std::to_string(rows_ + 3) + " is not that of trial " + trial + ": the file was changed");
-    if (cell_count(line) != cells)
-      refuse(path, "line " + std::to_string(rows_ + 3) + " has " + counted(cell_count(line), "cell") + ", not " +
-                       std::to_string(cells) + ": the file was changed");
+    const std::size_t cells = cells_of(line).size();
+    if (cells != columns)
+      refuse(path, "line " + std::to_string(rows_ + 3) + " has " + counted(cells, "cell") + ", not " +
+                       std::to_string(columns) + ": the file was changed");
     see_row(line);
     ++rows_;
   }

@@ -386,6 +386,8 @@ bool is_replaced(const std::vector<ValueOrigin>& origins, std::size_t i) {
 SceneError::SceneError(std::string source, std::vector<std::string> faults)
     : std::runtime_error(message(source, faults)), source_(std::move(source)), faults_(std::move(faults)) {}
 
+ValueOrigin origin_of_setting(const std::string& setting) { return {setting.substr(0, setting.find('=')), setting}; }
+
 void name_origins(const std::vector<ValueOrigin>& origins, std::vector<std::string>& faults) {
   for (std::string& fault : faults) {
     const std::string place = fault.substr(0, fault.find(": "));
@@ -400,7 +402,7 @@ Scene load_scene(const YAML::Node& tree, const std::string& source, const std::v
   Scene scene = SceneReader(tree, faults).read();
   if (!faults.empty()) {
     std::vector<ValueOrigin> origins;
-    for (const std::string& setting : settings) origins.push_back({setting.substr(0, setting.find('=')), setting});
+    for (const std::string& setting : settings) origins.push_back(origin_of_setting(setting));
     name_origins(origins, faults);
     throw SceneError(source, faults);
   }

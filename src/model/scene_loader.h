@@ -32,6 +32,9 @@ struct ValueOrigin {
   std::string key_path, place;
 };
 
+/// That of "key.path=value", as apply_setting() takes it.
+ValueOrigin origin_of_setting(const std::string& setting);
+
 /// Tells in each fault "(set by PLACE)" if a value of these, above or below it, may be what is wrong. Of several at one
 /// key path the last counts.
 void name_origins(const std::vector<ValueOrigin>& origins, std::vector<std::string>& faults);

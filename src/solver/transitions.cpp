@@ -113,12 +113,6 @@ void pin_limit(const System& system, const Segment& segment, Site site, SitePins
   if (std::abs(t) >= (1.0 - kAtLimit) * most) (t > 0.0 ? pins.hold_plus : pins.hold_minus) = 1;
 }
 
-/// True when three contacts stick, which hold all motions: which of them slide, and which way, hangs on them all.
-bool all_motions_are_held(const Segment& segment) {
-  return std::count_if(segment.loaded.begin(), segment.loaded.begin() + segment.loaded_count,
-                       [&](const ContactSeries& contact) { return slip_of(segment, contact) == Slip::stick; }) >= 3;
-}
-
 /// True when T of the only contact runs through the limit that it has reached at the segment's end, so fast that it
 /// cannot stay within: no choice is left but to slide against it. Nothing else happens at that instant.
 bool breaks_clearly(const System& system, const Segment& segment, const FoundEvents& events, const SitePins& pins) {
@@ -209,7 +203,7 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         if (contact.slip != Slip::stick) break;
         if (!events.parts) pin_limit(system, segment, site, pins);
         // after an implicit step what N does at once, faster than the step, must not decide
-        if ((segment.coarse && !all_motions_are_held(segment) && (pins.hold_plus > 0 || pins.hold_minus > 0)) ||
+        if ((segment.coarse && (pins.hold_plus > 0 || pins.hold_minus > 0)) ||
             breaks_clearly(system, segment, events, pins)) {
           contact.slip = pins.hold_plus > 0 ? Slip::minus : Slip::plus;
           pins.slip = 2;

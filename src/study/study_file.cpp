@@ -228,7 +228,7 @@ Study with_settings(const Study& study, const std::vector<std::string>& settings
   YAML::Node tree = YAML::Clone(*study.scene);
   for (const std::string& setting : settings) {
     apply_setting(tree, setting);
-    changed.origins.push_back({setting.substr(0, setting.find('=')), setting});
+    changed.origins.push_back(origin_of_setting(setting));
   }
   changed.scene = std::make_shared<const YAML::Node>(tree);
   return changed;

@@ -96,7 +96,7 @@ void refuse_without_scenes(const Study& study) {
 
 void refuse_settings_of_varied_keys(const Study& study, const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
-    const std::string key_path = setting.substr(0, setting.find('='));
+    const std::string key_path = origin_of_setting(setting).key_path;
     for (const Dimension& dimension : study.dimensions)
       for (const VariedKey& key : dimension.keys)
         if (!key.offset && is_at_or_below(key_path, key.key_path))
