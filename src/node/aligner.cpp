@@ -64,10 +64,10 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   // answers.
   ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
   std::vector<std::string> services;
-  for (const ros::ServiceServer& service : services_) services.push_back(service.getService());
-  for (const char* name : {"set_parameters", "get_loggers", "set_logger_level"}) {
+  for (const char* name : {"get_loggers", "set_logger_level", "set_parameters"}) {  // roscpp's own come first
     services.push_back(handle_.resolveName(name));
   }
+  for (const ros::ServiceServer& service : services_) services.push_back(service.getService());
   master_watch_.emplace(std::move(services), master);
 }
 

@@ -25,12 +25,12 @@ bool ask_master(const char* method, XmlRpcValue& request, XmlRpcValue& answer) {
   return ros::master::execute(method, request, response, answer, false);
 }
 
-/// True as well when the master does not answer. A master that was started anew may have the process number of the one
-/// before, as in a container, but it knows no node.
-bool master_knows_this_node() {
+/// True as well when the master does not answer.
+bool master_knows(const std::string& service) {
   XmlRpcValue request, response, answer;
-  request[0] = request[1] = ros::this_node::getName();
-  if (ros::master::execute("lookupNode", request, response, answer, false)) return true;
+  request[0] = ros::this_node::getName();
+  request[1] = service;
+  if (ros::master::execute("lookupService", request, response, answer, false)) return true;
   return response.getType() != XmlRpcValue::TypeArray;
 }
 
@@ -59,9 +59,8 @@ void register_topics(const char* list_method, const char* register_method, bool 
   }
 }
 
+/// The first service first: the master that knows it is told the rest as well, or goes before.
 void register_all(const std::vector<std::string>& services) {
-  register_topics("getPublications", "registerPublisher", false);
-  register_topics("getSubscriptions", "registerSubscriber", true);
   const std::string uri =
       "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   for (const std::string& service : services) {
@@ -71,6 +70,8 @@ void register_all(const std::vector<std::string>& services) {
     request[3] = ros::XMLRPCManager::instance()->getServerURI();
     ask_master("registerService", request, answer);
   }
+  register_topics("getPublications", "registerPublisher", false);
+  register_topics("getSubscriptions", "registerSubscriber", true);
 }
 
 }  // namespace
@@ -98,7 +99,8 @@ void MasterWatch::watch(int known) {
   while (!stopped_.wait_for(lock, kInterval, [this] { return stop_; })) {
     lock.unlock();
     const int now = master_process();
-    if (now != 0 && (now != known || !master_knows_this_node())) {
+    // a master that was started anew may have the process number of the one before, as in a container
+    if (now != 0 && (now != known || !master_knows(services_.front()))) {
       ROS_WARN("A new master: telling it of this node");
       register_all(services_);
       known = now;

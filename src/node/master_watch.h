@@ -16,8 +16,9 @@ int master_process();
 
 class MasterWatch {
  public:
-  /// `services`: all that this node advertises, by full name. Its topics are found. `known`: the master's process
-  /// before anything was registered: one that came while it was may know only a part.
+  /// `services`: all that this node advertises, by full name, first the one that was first: a master that does not know
+  /// it came later and may know only a part. Topics are found. `known`: the master's process before anything was
+  /// registered.
   MasterWatch(std::vector<std::string> services, int known);
   ~MasterWatch();
   MasterWatch(const MasterWatch&) = delete;

@@ -71,11 +71,12 @@ class LostMaster(unittest.TestCase):
         self.assertEqual(node.wait(10.0), 0)
 
     def test_new_master_while_the_node_starts_knows_all_of_it(self):
+        self.replace_master(pid=1)
         node = self.start_node('_time_scale:=0.0005', '_autostart:=false')
         while '/aligner/set_parameters' not in self.registered():
             self.assertIsNone(node.poll())
         node.send_signal(signal.SIGSTOP)  # the rest it tells the next one
-        self.replace_master()
+        self.replace_master(pid=1)
         node.send_signal(signal.SIGCONT)
         self.wait_until(lambda: {'/aligner/get_loggers', '/aligner/set_parameters', '/aligner/align/goal',
                                  '/aligner/step'} <= self.registered(), 'not all is registered')
