@@ -2,44 +2,20 @@
 
 #include <cmath>
 
+#include "mechanics/octet_contact.h"
 #include "mechanics/octet_holding.h"
 #include "mechanics/quad_functions.h"
-#include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
 namespace {
 
-struct Vec2Octet {
-  Octet x, y;
-};
-
-VIBRATORY_ALIGNMENT_INLINE Octet cross(const Vec2Octet& a, const Vec2Octet& b) { return a.x * b.y - a.y * b.x; }
-
 using StickingContacts = std::array<StickingOctet, kSiteCount>;
-
-/// tilt_of(): its series where all tilts are small.
-VIBRATORY_ALIGNMENT_INLINE void tilts_of(const Octet& phi, Octet& cos, Octet& sin) {
-  if (!(largest(abs(phi)) <= kSmallTilt)) {
-    for (std::size_t i = 0; i < Octet::kSize; ++i) {
-      const Tilt tilt = tilt_of(phi[i]);
-      cos[i] = tilt.cos;
-      sin[i] = tilt.sin;
-    }
-    return;
-  }
-  const Octet z = phi * phi;
-  const auto [even, odd] = small_tilt_series(z);
-  cos = 1.0 - (0.5 * z - even);
-  sin = phi - phi * odd;
-}
 
 /// As contact_kinematics() and evaluate_forces(). Returns the number of sticking contacts.
 VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const System& system, const StateOctet& q,
                                         const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces,
                                         StickingContacts& sticking) {
-  Octet fx = drive.x - system.x.damping * q.vx - system.x.stiffness * (q.x - system.x.anchor);
-  Octet fy = drive.y - system.y.damping * q.vy - system.y.stiffness * (q.y - system.y.anchor) - system.weight;
-  Octet moment = drive.phi - system.phi.damping * q.omega - system.phi.stiffness * (q.phi - system.phi.anchor);
+  auto [fx, fy, moment] = free_load(system, q, drive);
   // as numbers: a build without friction has constants of another type in their place (bench/effects)
   const double friction = system.friction, regularization = system.regularization;
   Octet c, s;
@@ -51,34 +27,21 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
     if (contact.phase != Phase::loaded) continue;
     const auto index = static_cast<std::size_t>(forces.count++);
     const auto site = static_cast<Site>(i);
-    const ContactFrame frame = contact_frame(system, contact.face);
-    const bool part_face = is_part_face(contact.face);
-    Vec2Octet point, lever, n;
-    if (part_face) {
-      lever = {side_of(site) * system.slot_half_width - q.x, -q.y};
-      point = {lever.x * c + lever.y * s, lever.y * c - lever.x * s};
-      n = {frame.n1 * c - frame.n2 * s, frame.n1 * s + frame.n2 * c};
-    } else {
-      const double beta = side_of(site) * system.half_width, b = system.base_distance;
-      point = {q.x + beta * c + b * s, q.y + beta * s - b * c};
-      lever = {point.x - q.x, point.y - q.y};
-      n = {frame.n1, frame.n2};
-    }
-    const Vec2Octet t = {n.y, -n.x}, v = {q.vx - q.omega * lever.y, q.vy + q.omega * lever.x};
-    const Octet depth_rate = -(v.x * n.x + v.y * n.y), slip_velocity = v.x * t.x + v.y * t.y;
+    const ContactOctet at = contact_octet(system, q, site, contact.face, c, s);
+    const Vec2Octet &n = at.normal, &t = at.tangent;
 
     ContactForceOctet& force = forces.contact[index];
     forces.site[index] = site;
-    force.depth = frame.sign * (frame.n1 * point.x + frame.n2 * point.y) + frame.offset;
-    force.slip_velocity = slip_velocity;
-    force.normal_force = along_normal(contact.face, c, s, system.stiffness_x, system.stiffness_y) * force.depth +
-                         along_normal(contact.face, c, s, system.damping_x, system.damping_y) * depth_rate;
+    force.depth = at.depth;
+    force.slip_velocity = at.slip_velocity;
+    force.normal_force = along_normal(contact.face, c, s, system.stiffness_x, system.stiffness_y) * at.depth +
+                         along_normal(contact.face, c, s, system.damping_x, system.damping_y) * at.depth_rate;
     Octet ratio = 0.0;
     switch (contact.slip) {
       case Slip::plus: ratio = -friction; break;
       case Slip::minus: ratio = friction; break;
       case Slip::regularized: {
-        const Octet share = slip_velocity / regularization;
+        const Octet share = at.slip_velocity / regularization;
         Octet tanh;
         tanh_of(share.low, tanh.low);
         tanh_of(share.high, tanh.high);
@@ -86,18 +49,12 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
         break;
       }
       case Slip::stick: {
-        StickingOctet& at = sticking[static_cast<std::size_t>(sticking_count++)];
-        at.index = index;
-        at.x = t.x;
-        at.y = t.y;
-        at.moment = cross(lever, t);
-        if (part_face) {
-          const Vec2Octet t_rate = {-q.omega * t.y, q.omega * t.x};
-          at.slip_rate = q.vx * t_rate.x + q.vy * t_rate.y +
-                         q.omega * (-q.vx * t.y + q.vy * t.x + lever.x * t_rate.y - lever.y * t_rate.x);
-        } else {
-          at.slip_rate = q.omega * (-q.omega * lever.y * t.y - q.omega * lever.x * t.x);
-        }
+        StickingOctet& row = sticking[static_cast<std::size_t>(sticking_count++)];
+        row.index = index;
+        row.x = t.x;
+        row.y = t.y;
+        row.moment = cross(at.lever, t);
+        row.slip_rate = slip_rate_of(q, at, contact.face);
         break;
       }
       case Slip::none: break;
@@ -109,7 +66,7 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
                              acting[index] * n.y + tangential_force * t.y};
     fx += total.x;
     fy += total.y;
-    moment += cross(lever, total);
+    moment += cross(at.lever, total);
   }
   forces.ax = system.x.inverse_inertia * fx;
   forces.ay = system.y.inverse_inertia * fy;

@@ -72,6 +72,20 @@ class Search {
     if (outcomes.inserted) guard_depth(EventKind::inserted, system_.inserted_depth, false);
   }
 
+  /// True when bounds alone tell that nothing happens but by forces and friction.
+  bool only_forces_act(const OutcomeGuards& outcomes) const {
+    for (int i = 0, end = site_end(system_); i < end; ++i) {
+      const auto site = static_cast<Site>(i);
+      if (!site_in_use(system_, site)) continue;
+      const ContactState& contact = segment_.contacts[static_cast<std::size_t>(i)];
+      if (contact.phase == Phase::loaded ? !surely_stays_on(site, contact.face)
+                                         : contact.phase != Phase::outside || !surely_outside(site))
+        return false;
+    }
+    return !(outcomes.aligned && !surely_misses(system_.aligned_depth, true)) &&
+           !(outcomes.inserted && !surely_misses(system_.inserted_depth, false));
+  }
+
  private:
   void offer(double time, EventKind kind, Site site, Face face = Face::none) {
     if (time == kNoRoot) return;
@@ -192,6 +206,21 @@ class Search {
       if (largest(condition, bound, 1.0, pinned != Face::none && condition.face == pinned) < 0.0) return true;
     }
     return false;
+  }
+
+  bool surely_outside(Site site) const {
+    const Face pinned = pins_[static_cast<std::size_t>(site)].face;
+    for (int half = 0; half < region_count(site); ++half)
+      if (!surely_outside(site, site_region(system_, site, half), pinned)) return false;
+    return true;
+  }
+
+  bool surely_stays_on(Site site, Face face) const {
+    const PointBound bound = bound_point(site);
+    const Region limits = face_limits(system_, face, bound.p);
+    for (int j = 0; j < limits.count; ++j)
+      if (!(largest(limits.conditions[j], bound, -1.0, false) < 0.0)) return false;
+    return true;
   }
 
   Series condition_series(const RegionCondition& condition, Site site) {
@@ -438,27 +467,33 @@ class Search {
     }
   }
 
-  /// Both lower corners below `depth` and, if asked, between the walls (a corner that presses into a wall is).
+  /// What is asked of a lower corner: to be below `depth` and, if asked, between the walls (one that presses into a
+  /// wall is).
+  RegionCondition asked(double depth, int j) const {
+    return j == 0 ? RegionCondition{0.0, -1.0, -depth, Face::none}
+                  : RegionCondition{j == 1 ? 1.0 : -1.0, 0.0, system_.slot_half_width, Face::none};
+  }
+  int asked_count(Site site, bool between_walls) const { return between_walls && !presses_wall(site) ? 3 : 1; }
+
+  /// True when something that is asked of a corner surely fails throughout.
+  bool surely_misses(double depth, bool between_walls) const {
+    for (const Site site : {Site::b1, Site::b2}) {
+      const PointBound bound = bound_point(site);
+      for (int j = 0; j < asked_count(site, between_walls); ++j)
+        if (largest(asked(depth, j), bound, 1.0, false) < 0.0) return true;
+    }
+    return false;
+  }
+
+  /// Both lower corners are where it is asked.
   void guard_depth(EventKind kind, double depth, bool between_walls) {
-    const auto count = [&](Site site) { return between_walls && !presses_wall(site) ? 3 : 1; };
-    const auto asked = [&](int j) {
-      return j == 0 ? RegionCondition{0.0, -1.0, -depth, Face::none}
-                    : RegionCondition{j == 1 ? 1.0 : -1.0, 0.0, system_.slot_half_width, Face::none};
-    };
     // mostly one of them surely fails throughout
-    const auto one_fails = [&] {
-      for (const Site site : {Site::b1, Site::b2}) {
-        const PointBound bound = bound_point(site);
-        for (int j = 0; j < count(site); ++j)
-          if (largest(asked(j), bound, 1.0, false) < 0.0) return true;
-      }
-      return false;
-    };
-    if (one_fails() || (shorten() && one_fails())) return;
+    if (surely_misses(depth, between_walls) || (shorten() && surely_misses(depth, between_walls))) return;
     Conditions conditions;
     conditions.count = 0;
     for (const Site site : {Site::b1, Site::b2})
-      for (int j = 0; j < count(site); ++j) conditions.g[conditions.count++] = condition_series(asked(j), site);
+      for (int j = 0; j < asked_count(site, between_walls); ++j)
+        conditions.g[conditions.count++] = condition_series(asked(depth, j), site);
     offer(first_entry(conditions, order_, duration_).time, kind, Site::b1);
   }
 
@@ -482,6 +517,12 @@ void find_events(const System& system, MotionSeries& series, Segment& segment, c
                  const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives,
                  FoundEvents& found) {
   Search(system, series, segment, pins, recoveries, drives, found).run(outcomes);
+}
+
+bool only_forces_act(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
+                     const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives) {
+  FoundEvents none;
+  return Search(system, series, segment, pins, recoveries, drives, none).only_forces_act(outcomes);
 }
 
 }  // namespace vibratory_alignment

@@ -32,4 +32,10 @@ struct FoundEvents {
                                    const Recoveries& recoveries, const OutcomeGuards& outcomes,
                                    const DriveForms& drives, FoundEvents& found);
 
+/// True when bounds on the motion, with |v(t) - v(0)| <= |v_1| t of each velocity's series, exclude all events of the
+/// segment but those of the loaded contacts' forces and friction. False also where a point is inside without force.
+[[gnu::noinline]] bool only_forces_act(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
+                                       const Recoveries& recoveries, const OutcomeGuards& outcomes,
+                                       const DriveForms& drives);
+
 }  // namespace vibratory_alignment

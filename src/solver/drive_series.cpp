@@ -5,6 +5,15 @@
 
 namespace vibratory_alignment {
 
+Load3 load_at(const DriveForms& drives, double t) {
+  Load3 load;
+  for (int i = 0; i < drives.count; ++i) {
+    const double value = drives.form[i].at(t);
+    (drives.direction[i] == Direction::x ? load.x : drives.direction[i] == Direction::y ? load.y : load.phi) += value;
+  }
+  return load;
+}
+
 void DriveSeries::begin(const DriveForms& drives) {
   drives_ = &drives;
   known_ = -1;

@@ -35,6 +35,9 @@ struct DriveForms {
   }
 };
 
+/// Forces and moment at time t after the forms' start.
+Load3 load_at(const DriveForms& drives, double t);
+
 class DriveSeries {
  public:
   /// The drives of a segment from its start on; they have to outlive it. Nothing is made yet.

@@ -140,6 +140,9 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
     collocation();  // made now, not in the first step
     implicit_.emplace(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance));
   }
+  const bool has_layer = system_.friction > 0.0 && system_.regularization > 0.0 && !system_.recovery;
+  if (has_layer && (method_ == ContactMethod::series || method_ == ContactMethod::automatic))
+    layer_crossing_.emplace(system_, tolerance_);
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");
   for (const Excitation& excitation : excitations) drives_.emplace_back(excitation, now_);
@@ -197,6 +200,7 @@ void EventSolver::go_to_end() {
   state_ = segment_.end;
   if (mode_changes_) {
     mode_ = next_mode_;
+    may_cross_ = true;
   } else if (segment_.duration > 0.0) {
     mode_.pins.fill(SitePins{});
   }
@@ -239,6 +243,53 @@ bool EventSolver::leap(double longest, FoundEvents& found) {
   return true;
 }
 
+/// Crosses the tanh layer in one segment, without series, to its other side, where nothing else can happen on the way.
+/// Tried once after each event.
+bool EventSolver::cross_layer(double longest, FoundEvents& found) {
+  if (!layer_crossing_ || !may_cross_) return false;
+  may_cross_ = false;
+  const auto is_loaded = [](const ContactState& contact) { return contact.phase == Phase::loaded; };
+  const ContactStates& contacts = mode_.contacts;
+  const auto only = std::find_if(contacts.begin(), contacts.end(), is_loaded);
+  if (only->slip != Slip::regularized || std::any_of(only + 1, contacts.end(), is_loaded)) return false;
+  const auto site = static_cast<Site>(only - contacts.begin());
+  if (!layer_crossing_->take(state_, forms_, contacts, site, counts_)) return false;
+  bound_crossing(site);
+  if (!(segment_.duration < longest) ||
+      !only_forces_act(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, forms_)) {
+    ++counts_.rejected;
+    return false;
+  }
+  segment_.layer_crossing = &*layer_crossing_;
+  segment_.end = layer_crossing_->end();
+  found.time = segment_.duration;
+  found.count = 1;
+  found.events[0] = {EventKind::slip, site};
+  return true;
+}
+
+/// The segment as the bounds of a crossing see it: from its start on, with accelerations up to those of the crossing.
+void EventSolver::bound_crossing(Site site) {
+  const Load3& most = layer_crossing_->most_acceleration();
+  const Tilt tilt = tilt_of(state_.phi);
+  segment_.duration = layer_crossing_->duration();
+  segment_.coarse = false;
+  segment_.order = 1;
+  segment_.cos_phi[0] = tilt.cos;
+  segment_.sin_phi[0] = tilt.sin;
+  segment_.x[0] = state_.x;
+  segment_.y[0] = state_.y;
+  segment_.phi[0] = state_.phi;
+  segment_.vx[0] = state_.vx;
+  segment_.vy[0] = state_.vy;
+  segment_.omega[0] = state_.omega;
+  segment_.vx[1] = most.x;
+  segment_.vy[1] = most.y;
+  segment_.omega[1] = most.phi;
+  segment_.loaded_count = 1;
+  segment_.loaded[0].site = site;
+}
+
 void EventSolver::start() {
   set_forms(drives_, now_, forms_);
   forms_known_ = true;
@@ -255,6 +306,7 @@ void EventSolver::begin_segment(bool contact) {
   if (contact) state_ = hold_sticking(system_, state_, mode_.contacts);
   segment_.begin = state_;
   segment_.flight = nullptr;
+  segment_.layer_crossing = nullptr;
   implicit_now_ = false;
   if (contact) {
     in_flight_ = false;
@@ -346,9 +398,9 @@ const Segment& EventSolver::advance(double limit) {
   const bool contact = any_loaded(mode_.contacts);
   begin_segment(contact);
   found_.clear();
-  const bool leaps = !contact && leap(longest, found_);
-  if (!leaps) take_step(longest, contact);
-  if (contact && method_ == ContactMethod::automatic && longest > 0.0 && !contradicted())
+  const bool at_once = contact ? cross_layer(longest, found_) : leap(longest, found_);
+  if (!at_once) take_step(longest, contact);
+  if (contact && !at_once && method_ == ContactMethod::automatic && longest > 0.0 && !contradicted())
     settle(segment_.duration, longest);
   const bool kink = segment_.duration == to_kink;
   if (found_.count == 0 && !kink && segment_.duration < to_limit && now_.high + segment_.duration == now_.high)
@@ -356,7 +408,7 @@ const Segment& EventSolver::advance(double limit) {
 
   const bool whole_step = implicit_now_ && segment_.duration == implicit_length_;
   if (implicit_ && !whole_step) implicit_->forget();
-  if (!leaps)
+  if (!at_once)
     segment_.end = whole_step ? implicit_->end()
                    : contact  ? state_at(segment_, segment_.duration)
                               : flight_state(segment_.duration);
@@ -395,6 +447,7 @@ void EventSolver::cut(double duration) {
   if (implicit_) implicit_->forget();
   segment_.duration = duration;
   segment_.end = segment_.loaded_count > 0 ? state_at(segment_, duration) : flight_state(duration);
+  may_cross_ = true;
   FoundEvents none;
   prepare_next(none, false);
 }
@@ -429,25 +482,6 @@ void EventSolver::forces_jump() {
   DriveForms forms;
   set_forms(next_drives_, end, forms);
   decide_friction_anew(system_, segment_, forms, friction_, next_mode_);
-}
-
-State state_at(const Segment& segment, double t) {
-  if (segment.flight != nullptr) {
-    State state;
-    segment.flight->at(segment.flight_time + t, state);
-    return state;
-  }
-  State end;
-  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    // Horner's rule on all six at once: none waits for another
-    int k = segment.order;
-    State q{segment.x[k], segment.y[k], segment.phi[k], segment.vx[k], segment.vy[k], segment.omega[k]};
-    while (--k >= 0)
-      q = {q.x * t + segment.x[k],   q.y * t + segment.y[k],   q.phi * t + segment.phi[k],
-           q.vx * t + segment.vx[k], q.vy * t + segment.vy[k], q.omega * t + segment.omega[k]};
-    end = q;
-  });
-  return end;
 }
 
 }  // namespace vibratory_alignment

@@ -7,6 +7,7 @@
 
 #include "solver/flight.h"
 #include "solver/implicit_step.h"
+#include "solver/layer_crossing.h"
 #include "solver/method_choice.h"
 #include "solver/ring_watch.h"
 #include "solver/series_reach.h"
@@ -33,6 +34,8 @@ class EventSolver final : public Solver {
   void start();
   void begin_segment(bool contact);
   bool leap(double longest, FoundEvents& found);
+  bool cross_layer(double longest, FoundEvents& found);
+  void bound_crossing(Site site);
   void take_step(double longest, bool contact);
   void go_along(double step, double longest, double point_tolerance, bool contact);
   double bounded_step(double step, double longest, double point_tolerance, bool contact);
@@ -100,6 +103,8 @@ class EventSolver final : public Solver {
   MethodChoice choice_;                   ///< automatic
   bool follows_base_ = false;             ///< automatic: the present implicit step is so short that it follows the base
   long evaluations_before_ = 0;           ///< automatic: until the present step
+  std::optional<LayerCrossing> layer_crossing_;  ///< where the scene has a layer to cross
+  bool may_cross_ = true;                        ///< not tried since the contacts changed
   Segment segment_;
   FoundEvents found_;  ///< in the step that is being taken
 

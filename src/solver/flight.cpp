@@ -10,14 +10,6 @@ void Flight::begin(const State& state, const DriveForms& drives, const Instant& 
   motion_.settle();
 }
 
-Load3 Flight::drive_at(double t) const {
-  Load3 load;
-  for (int i = 0; i < drives_.count; ++i) {
-    const DriveForm& form = drives_.form[i];
-    const double value = form.at(t);
-    (drives_.direction[i] == Direction::x ? load.x : drives_.direction[i] == Direction::y ? load.y : load.phi) += value;
-  }
-  return load;
-}
+Load3 Flight::drive_at(double t) const { return load_at(drives_, t); }
 
 }  // namespace vibratory_alignment

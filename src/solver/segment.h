@@ -1,4 +1,5 @@
-// A segment: one smooth piece of the motion, as power series in the time since its start or, in flight, in closed form.
+// A segment: one smooth piece of the motion, as power series in the time since its start or, in flight, in closed form,
+// or as polynomials in the sliding velocity, across the tanh layer.
 // Every solver produces segments; everything that looks at a motion (samples, peaks, energy, outcomes) reads them.
 #pragma once
 
@@ -6,6 +7,7 @@
 #include <cstdint>
 
 #include "mechanics/contact.h"
+#include "mechanics/drive.h"
 #include "mechanics/instant.h"
 #include "mechanics/state.h"
 #include "solver/contact_mode.h"
@@ -47,6 +49,7 @@ struct ContactSeries {
 };
 
 class Flight;
+class LayerCrossing;
 
 struct Segment {
   Instant start;
@@ -56,8 +59,10 @@ struct Segment {
   bool coarse = false;             ///< made by an implicit step, which does not follow what is faster than it
   const Flight* flight = nullptr;  ///< set: a leap in flight, in closed form instead of series (x ... drive_phi unused)
   double flight_time = 0.0;        ///< time from the start of the flight to the start of the segment
-  Series x{}, y{}, phi{};          ///< positions
-  Series vx{}, vy{}, omega{};      ///< velocities
+  /// Set: a crossing of the tanh layer by the only loaded contact, loaded[0], instead of series (all unused).
+  const LayerCrossing* layer_crossing = nullptr;
+  Series x{}, y{}, phi{};      ///< positions
+  Series vx{}, vy{}, omega{};  ///< velocities
   Series cos_phi{}, sin_phi{};
   Series drive_x{}, drive_y{}, drive_phi{};  ///< excitation forces and moment
   ContactStates contacts;                    ///< state of every site during the segment
@@ -78,5 +83,19 @@ inline Slip slip_of(const Segment& segment, const ContactSeries& contact) {
 
 /// State at `t` after the start, 0 <= t <= duration.
 State state_at(const Segment& segment, double t);
+
+/// Forces of the excitations then.
+Load3 drive_at(const Segment& segment, double t);
+
+/// What a loaded contact does at an instant, as ContactSeries.
+struct ContactValues {
+  double depth, normal_force, tangential_force, slip_velocity;
+};
+
+/// Of loaded[i] at `t` after the start.
+ContactValues contact_at(const Segment& segment, int i, double t);
+
+/// Largest N of loaded[i] between two times after the start; not a number where it is near overflow.
+double largest_normal_force(const Segment& segment, int i, double from, double to);
 
 }  // namespace vibratory_alignment

@@ -30,14 +30,12 @@ class TouchLog {
       if (touching) open_[site]->contact_time += segment.duration;
     }
     for (int i = 0; i < segment.loaded_count; ++i) {
-      const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
-      std::optional<Touch>& touch = open_[static_cast<std::size_t>(contact.site)];
+      std::optional<Touch>& touch = open_[static_cast<std::size_t>(segment.loaded[static_cast<std::size_t>(i)].site)];
       if (!touch) continue;
       const ContactImpulse impulse = contact_impulse(system_, segment, i, 0.0, segment.duration);
       touch->normal_impulse += impulse.normal;
       touch->friction_impulse += impulse.friction;
-      touch->peak_force =
-          std::max(touch->peak_force, largest_value(contact.normal_force, segment.order, 0.0, segment.duration));
+      touch->peak_force = std::max(touch->peak_force, largest_normal_force(segment, i, 0.0, segment.duration));
     }
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
+#include "solver/layer_crossing.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -36,6 +37,23 @@ bool is_proportional(const ContactSeries& contact, int order) {
   return n[0] > 0.0;
 }
 
+/// Of a crossing of the tanh layer, by its quadrature.
+ContactImpulse crossing_impulse(const System& system, const Segment& segment, Face face, double from, double to) {
+  const LayerCrossing& crossing = *segment.layer_crossing;
+  const auto [count, time, weight] = crossing.quadrature(from, to);
+  ContactImpulse impulse;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactValues contact = crossing.contact_at(time[i]);
+    const double normal = weight[i] * contact.normal_force, friction = weight[i] * contact.tangential_force;
+    const ContactKinematics k = contact_kinematics(system, crossing.at(time[i]), segment.loaded[0].site, face);
+    impulse.normal += normal;
+    impulse.friction += friction;
+    impulse.x += normal * k.normal.x + friction * k.tangent.x;
+    impulse.y += normal * k.normal.y + friction * k.tangent.y;
+  }
+  return impulse;
+}
+
 }  // namespace
 
 ContactImpulse& ContactImpulse::operator+=(const ContactImpulse& other) {
@@ -49,6 +67,7 @@ ContactImpulse& ContactImpulse::operator+=(const ContactImpulse& other) {
 ContactImpulse contact_impulse(const System& system, const Segment& segment, int i, double from, double to) {
   const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
   const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
+  if (segment.layer_crossing != nullptr) return crossing_impulse(system, segment, face, from, to);
   ContactImpulse impulse;
   impulse.normal = integral(contact.normal_force, segment.order, from, to);
   impulse.friction = integral(contact.tangential_force, segment.order, from, to);

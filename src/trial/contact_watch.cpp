@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mechanics/contact_frame.h"
+#include "solver/layer_crossing.h"
 #include "solver/polynomial_roots.h"
 #include "solver/solver.h"
 
@@ -16,6 +17,15 @@ constexpr double kStart = 1e-12;
 
 /// Room for changes of mode without allocation.
 constexpr std::size_t kExpectedChanges = 1024;
+
+/// True when N of loaded[i] surely stays below `force` during the segment.
+bool force_stays_below(const Segment& segment, int i, double force) {
+  if (segment.layer_crossing != nullptr) return segment.layer_crossing->most_normal_force() <= force;
+  const Series& normal_force = segment.loaded[i].normal_force;
+  double bound = 0.0;
+  for (int k = segment.order; k > 0; --k) bound = (bound + std::max(normal_force[k], 0.0)) * segment.duration;
+  return normal_force[0] + bound <= force || stays_below(normal_force, segment.order, segment.duration, force);
+}
 
 }  // namespace
 
@@ -32,17 +42,13 @@ void ContactWatch::book(const Segment& segment) {
 
 void ContactWatch::book_peaks(const Segment& segment) {
   for (int i = 0; i < segment.loaded_count; ++i) {
-    const ContactSeries& contact = segment.loaded[i];
-    double& peak = peaks_[static_cast<std::size_t>(spot_of(contact.site))];
+    const Spot spot = spot_of(segment.loaded[i].site);
+    double& peak = peaks_[static_cast<std::size_t>(spot)];
     // the maximum is looked for only where it can be a new one
-    double bound = 0.0;
-    for (int k = segment.order; k > 0; --k) bound = (bound + std::max(contact.normal_force[k], 0.0)) * segment.duration;
-    if (contact.normal_force[0] + bound <= peak ||
-        stays_below(contact.normal_force, segment.order, segment.duration, peak))
-      continue;
-    const double largest = largest_value(contact.normal_force, segment.order, 0.0, segment.duration);
+    if (force_stays_below(segment, i, peak)) continue;
+    const double largest = largest_normal_force(segment, i, 0.0, segment.duration);
     if (!std::isfinite(largest))
-      throw SolverFailure(std::string("the force at ") + to_string(spot_of(contact.site)) + " is no longer finite");
+      throw SolverFailure(std::string("the force at ") + to_string(spot) + " is no longer finite");
     peak = std::max(peak, largest);
   }
 }

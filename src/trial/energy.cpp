@@ -5,6 +5,7 @@
 #include "mechanics/contact_frame.h"
 #include "mechanics/tilt.h"
 #include "solver/flight.h"
+#include "solver/layer_crossing.h"
 #include "solver/solver.h"
 
 namespace vibratory_alignment {
@@ -21,13 +22,6 @@ constexpr double kPanel = 2.0;
 
 /// Series of this order hold for a panel. Longer ones, of straight motion, hold for two.
 constexpr int kPanelOrder = 22;
-
-Load3 drive_at(const Segment& segment, double t) {
-  if (segment.flight != nullptr) return segment.flight->drive_at(segment.flight_time + t);
-  const int order = segment.order;
-  return {value_at(segment.drive_x, order, t), value_at(segment.drive_y, order, t),
-          value_at(segment.drive_phi, order, t)};
-}
 
 }  // namespace
 
@@ -47,14 +41,19 @@ void EnergyAccount::book(const Segment& segment) {
   if (first) ledger_.initial = mechanical(segment.begin);
 
   const auto relaxations = relaxations_in(segment);
-  const double rate = segment.flight ? segment.flight->rate(segment.flight_time) : 0.0;
-  const int panels = (segment.order > kPanelOrder ? 2 : 1) + static_cast<int>(segment.duration * rate / kPanel);
-  const double half = 0.5 * segment.duration / panels;
-  for (int panel = 0; panel < panels; ++panel)
-    for (int i = 0; i < 12; ++i) {
-      const double node = i < 6 ? -kNodes[i] : kNodes[i - 6];
-      book_powers(segment, relaxations, half * (2 * panel + 1 + node), half * kWeights[i % 6]);
-    }
+  if (segment.layer_crossing != nullptr) {
+    const auto [count, time, weight] = segment.layer_crossing->quadrature(0.0, segment.duration);
+    for (std::size_t i = 0; i < count; ++i) book_powers(segment, relaxations, time[i], weight[i]);
+  } else {
+    const double rate = segment.flight ? segment.flight->rate(segment.flight_time) : 0.0;
+    const int panels = (segment.order > kPanelOrder ? 2 : 1) + static_cast<int>(segment.duration * rate / kPanel);
+    const double half = 0.5 * segment.duration / panels;
+    for (int panel = 0; panel < panels; ++panel)
+      for (int i = 0; i < 12; ++i) {
+        const double node = i < 6 ? -kNodes[i] : kNodes[i - 6];
+        book_powers(segment, relaxations, half * (2 * panel + 1 + node), half * kWeights[i % 6]);
+      }
+  }
 
   // base springs: what jumps between two segments has been dropped (or brought back)
   std::array<double, kSiteCount> at_start{}, at_end{};
@@ -64,8 +63,9 @@ void EnergyAccount::book(const Segment& segment) {
     const ContactSeries& contact = segment.loaded[i];
     const auto site = static_cast<std::size_t>(contact.site);
     const Face face = segment.contacts[site].face;
-    const double end_depth = value_at(contact.depth, segment.order, segment.duration);
-    at_start[site] = 0.5 * stiffness_of(system_, face, c0, s0) * contact.depth[0] * contact.depth[0];
+    const double start_depth = contact_at(segment, i, 0.0).depth;
+    const double end_depth = contact_at(segment, i, segment.duration).depth;
+    at_start[site] = 0.5 * stiffness_of(system_, face, c0, s0) * start_depth * start_depth;
     at_end[site] = 0.5 * stiffness_of(system_, face, c1, s1) * end_depth * end_depth;
   }
   for (std::size_t site = 0; site < kSiteCount; ++site) {
@@ -113,7 +113,6 @@ void EnergyAccount::book_powers(const Segment& segment, const Relaxations& relax
   const bool base_turns = system_.recovery && !system_.isotropic;
   if (segment.loaded_count == 0 && !base_turns) return;
   const Tilt tilt = tilt_of(s.phi);
-  const int order = segment.order;
   // the normal of a deformed base turns: 1/2 (dk/dphi) phi' d^2
   const auto turning = [&](Face face, double depth) {
     return weight * 0.5 * stiffness_slope_of(system_, face, tilt.cos, tilt.sin) * s.omega * depth * depth;
@@ -135,9 +134,9 @@ void EnergyAccount::book_powers(const Segment& segment, const Relaxations& relax
       const double rate = contact_kinematics(system_, s, contact.site, face, point, tilt.cos, tilt.sin).depth_rate;
       ledger_.base_loss += weight * damping * rate * rate;
     }
-    ledger_.friction_loss -=
-        weight * value_at(contact.tangential_force, order, t) * value_at(contact.slip_velocity, order, t);
-    if (!system_.isotropic) ledger_.turning += turning(face, value_at(contact.depth, order, t));
+    const ContactValues values = contact_at(segment, i, t);
+    ledger_.friction_loss -= weight * values.tangential_force * values.slip_velocity;
+    if (!system_.isotropic) ledger_.turning += turning(face, values.depth);
   }
 }
 

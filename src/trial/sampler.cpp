@@ -19,14 +19,13 @@ void Sampler::integrate_to(double local_time) {
   if (!(local_time > integrated_to_)) return;
   const Segment& segment = simulation_.segment();
   for (int i = 0; i < segment.loaded_count; ++i) {
-    const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
-    ContactSample& pending = pending_[static_cast<std::size_t>(contact.site)];
+    ContactSample& pending = pending_[static_cast<std::size_t>(segment.loaded[static_cast<std::size_t>(i)].site)];
     const ContactImpulse impulse = contact_impulse(system_, segment, i, integrated_to_, local_time);
     pending.impulse_x += impulse.x;
     pending.impulse_y += impulse.y;
     pending.normal_impulse += impulse.normal;
-    pending.peak_normal_force = std::max(
-        pending.peak_normal_force, largest_value(contact.normal_force, segment.order, integrated_to_, local_time));
+    pending.peak_normal_force =
+        std::max(pending.peak_normal_force, largest_normal_force(segment, i, integrated_to_, local_time));
   }
   integrated_to_ = local_time;
 }
@@ -52,11 +51,12 @@ void Sampler::read(double time, double local_time, Sample& sample) {
     contact.point_y = sample.state.y + k.lever.y;
   }
   for (int i = 0; i < segment.loaded_count; ++i) {
-    const ContactSeries& series = segment.loaded[static_cast<std::size_t>(i)];
-    ContactSample& contact = sample.contacts[static_cast<std::size_t>(series.site)];
-    contact.normal_force = std::max(0.0, value_at(series.normal_force, segment.order, local_time));
+    const ContactValues values = contact_at(segment, i, local_time);
+    ContactSample& contact =
+        sample.contacts[static_cast<std::size_t>(segment.loaded[static_cast<std::size_t>(i)].site)];
+    contact.normal_force = std::max(0.0, values.normal_force);
     contact.peak_normal_force = std::max(contact.peak_normal_force, contact.normal_force);
-    contact.tangential_force = value_at(series.tangential_force, segment.order, local_time);
+    contact.tangential_force = values.tangential_force;
     contact.force_x = contact.normal_force * contact.normal_x + contact.tangential_force * contact.normal_y;
     contact.force_y = contact.normal_force * contact.normal_y - contact.tangential_force * contact.normal_x;
   }

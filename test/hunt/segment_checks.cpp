@@ -65,6 +65,21 @@ double mobility(const System& s, const TouchPoint& p) {
   return s.x.inverse_inertia + s.y.inverse_inertia + (p.rx * p.rx + p.ry * p.ry) * s.phi.inverse_inertia;
 }
 
+/// Sizes of what N and T of a loaded contact are sums of, and what is cut off of N.
+struct ForceTerms {
+  double normal, tangential, normal_cut;
+};
+
+ForceTerms force_terms(const Segment& segment, int i, double t) {
+  if (segment.layer_crossing != nullptr) {
+    const ContactValues values = contact_at(segment, i, t);
+    return {std::abs(values.normal_force), std::abs(values.tangential_force), 0.0};
+  }
+  const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
+  return {magnitude_at(contact.normal_force, segment.order, t),
+          magnitude_at(contact.tangential_force, segment.order, t), cut_of(contact.normal_force, segment.order, t)};
+}
+
 class SegmentCheck {
  public:
   SegmentCheck(const System& system, double tolerance, double fastest, const Segment& segment)
@@ -80,7 +95,7 @@ class SegmentCheck {
     const State& q = state_;
     if (!std::isfinite(q.x + q.y + q.phi + q.vx + q.vy + q.omega)) return fault(Invariant::finite, "state", q.x);
     for (int i = 0; i < segment_.loaded_count; ++i)
-      if (auto found = loaded(segment_.loaded[static_cast<std::size_t>(i)])) return found;
+      if (auto found = loaded(i)) return found;
     for (int site = 0; site < kSiteCount; ++site)
       if (auto found = outside(static_cast<Site>(site))) return found;
     return {};
@@ -100,19 +115,19 @@ class SegmentCheck {
     return digits_ * length_of(system_, state_) + kTimeDigits * time * speed_of(system_, segment_, state_);
   }
 
-  std::optional<Fault> loaded(const ContactSeries& contact) const {
-    const int order = segment_.order;
-    const ContactState& site = segment_.contacts[static_cast<std::size_t>(contact.site)];
-    const TouchPoint p = touch_point(system_, state_, {contact.site, site.face});
-    const double n = value_at(contact.normal_force, order, t_), t = value_at(contact.tangential_force, order, t_);
+  std::optional<Fault> loaded(int i) const {
+    const Site site = segment_.loaded[static_cast<std::size_t>(i)].site;
+    const TouchPoint p = touch_point(system_, state_, {site, segment_.contacts[static_cast<std::size_t>(site)].face});
+    const ContactValues values = contact_at(segment_, i, t_);
+    const double n = values.normal_force, t = values.tangential_force;
+    const ForceTerms terms = force_terms(segment_, i, t_);
     if (!std::isfinite(n) || !std::isfinite(t)) return fault(Invariant::finite, "contact force", n + t);
 
     const double speed = speed_of(system_, segment_, state_);
-    const double n_terms = magnitude_at(contact.normal_force, order, t_);
     const double rate_noise =
         digits_ * speed + kDigits * fastest_ + kPlaceDigits * gripper_rate(system_) * length_of(system_, state_);
-    const double n_noise = p.stiffness * depth_noise() + p.damping * rate_noise + (kDigits + tolerance_) * n_terms +
-                           cut_of(contact.normal_force, order, t_);
+    const double n_noise =
+        p.stiffness * depth_noise() + p.damping * rate_noise + (kDigits + tolerance_) * terms.normal + terms.normal_cut;
     if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
     const bool at_end = !segment_.coarse || t_ >= segment_.duration;
     const double passed_over = at_end ? 0.0 : kPassedOverForce * std::max(0.0, std::min(n, p.normal_force));
@@ -120,9 +135,8 @@ class SegmentCheck {
       return fault(Invariant::base_pushes, "N - (k d + h d')", n - p.normal_force);
 
     // V is wrong by its digits and by what wrong forces make of it in the segment
-    const double t_terms = magnitude_at(contact.tangential_force, order, t_),
-                 limit = system_.friction * std::max(n, 0.0);
-    double t_noise = system_.friction * n_noise + (kDigits + tolerance_) * t_terms;
+    const double limit = system_.friction * std::max(n, 0.0);
+    double t_noise = system_.friction * n_noise + (kDigits + tolerance_) * terms.tangential;
     const double slip_noise =
         kSlipErrors * (digits_ + tolerance_) * speed + mobility(system_, p) * (n_noise + t_noise) * segment_.duration;
     if (system_.regularization > 0.0) t_noise += limit * slip_noise / system_.regularization;
@@ -186,7 +200,7 @@ class SegmentCheck {
 
 std::optional<Fault> check_segment(const System& system, double tolerance, double fastest, const Segment& segment) {
   SegmentCheck check(system, tolerance, fastest, segment);
-  if (segment.flight != nullptr) {
+  if (segment.flight != nullptr || segment.layer_crossing != nullptr) {
     for (int i = 0; i <= kFlightPoints; ++i)
       if (auto found = check.at(segment.duration * i / kFlightPoints)) return found;
     return {};
@@ -207,8 +221,8 @@ double energy_noise(const System& system, const Segment& segment) {
     const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
     const TouchPoint p = touch_point(system, segment.begin, {contact.site, face});
-    const double force = magnitude_at(contact.normal_force, segment.order, h) +
-                         magnitude_at(contact.tangential_force, segment.order, h) + p.stiffness * depth_noise;
+    const ForceTerms terms = force_terms(segment, i, h);
+    const double force = terms.normal + terms.tangential + p.stiffness * depth_noise;
     const double creep = mobility(system, p) * kForceDigits * force * h;  // a speed
     noise += force * (depth_noise + creep * h);
   }

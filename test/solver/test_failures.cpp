@@ -154,9 +154,9 @@ solver: {tolerance: 1.0e-11, step_limit: 4000}
 )");
   const TrialResult result = run(scene, [](const Segment& g) {
     for (int i = 0; i < g.loaded_count; ++i) {
-      const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
-      ASSERT_TRUE(std::isfinite(value_at(contact.tangential_force, g.order, g.duration)));
-      ASSERT_TRUE(std::isfinite(value_at(contact.normal_force, g.order, g.duration)));
+      const ContactValues contact = contact_at(g, i, g.duration);
+      ASSERT_TRUE(std::isfinite(contact.tangential_force));
+      ASSERT_TRUE(std::isfinite(contact.normal_force));
     }
   });
   EXPECT_TRUE(std::isfinite(result.energy->residual));

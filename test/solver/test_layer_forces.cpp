@@ -102,7 +102,7 @@ TEST(LayerForces, follow_the_law_of_the_layer_up_to_its_edge_and_no_farther) {
         const bool in_layer = slip_of(g, contact) == Slip::regularized;
         ++(in_layer ? within : beyond);
         for (const double share : {0.0, 0.5, 1.0}) {
-          const double v = std::abs(value_at(contact.slip_velocity, g.order, share * g.duration));
+          const double v = std::abs(contact_at(g, i, share * g.duration).slip_velocity);
           EXPECT_TRUE(in_layer ? v <= edge * (1.0 + rounding) : v >= edge * (1.0 - rounding))
               << g.start.value() << ": " << v;
         }

@@ -49,12 +49,11 @@ TEST(LayerRelease, friction_stays_within_its_limit_up_to_the_release) {
     while (simulation.advance()) {
       const Segment& g = simulation.segment();
       for (int i = 0; i < g.loaded_count; ++i) {
-        const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
         for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
           const double t = share * g.duration;
-          const double limit = scene.friction->coefficient * value_at(contact.normal_force, g.order, t);
+          const double limit = scene.friction->coefficient * contact_at(g, i, t).normal_force;
           most_friction = std::max(most_friction, limit);
-          EXPECT_LE(std::abs(value_at(contact.tangential_force, g.order, t)), limit + 1e-7 * most_friction)
+          EXPECT_LE(std::abs(contact_at(g, i, t).tangential_force), limit + 1e-7 * most_friction)
               << g.start.value() << " + " << t;
         }
       }

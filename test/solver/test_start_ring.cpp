@@ -12,7 +12,7 @@
 namespace vibratory_alignment {
 namespace {
 
-constexpr double kPress = 2.0, kPull = 4.0, kFrequency = 200.0, kStiffness = 1e10, kTolerance = 1e-9;
+constexpr double kPress = 2.0, kPull = 4.0, kFrequency = 200.0, kStiffness = 1e10, kRingTolerance = 1e-9;
 
 Scene pulled(double damping_ratio) {
   Scene scene = test::scene_of(test::ball, {"gripper={pressing_force: 2.0}", "trial.time_limit=0.005"});
@@ -64,7 +64,7 @@ TEST(StartRing, the_speed_of_a_release_is_that_of_the_ring) {
     for (const char* solver : {"event", "implicit", "auto"}) {
       Scene scene = pulled(damping_ratio);
       scene.solver.name = solver;
-      scene.solver.tolerance = kTolerance;
+      scene.solver.tolerance = kRingTolerance;
       Release release;
       test::run(scene, [&](const Segment& g) {
         for (int i = 0; i < g.event_count; ++i)
@@ -72,7 +72,7 @@ TEST(StartRing, the_speed_of_a_release_is_that_of_the_ring) {
             release = {g.end_time(), g.end.vy};
       });
       const Release expected = expected_release(damping_ratio);
-      EXPECT_NEAR(release.speed, expected.speed, 2.0 * kTolerance) << solver << " " << damping_ratio;
+      EXPECT_NEAR(release.speed, expected.speed, 2.0 * kRingTolerance) << solver << " " << damping_ratio;
     }
 }
 
@@ -101,7 +101,7 @@ TEST(StartRing, is_passed_over_where_the_base_damps_it) {
   for (const char* solver : {"implicit", "auto"}) {
     Scene scene = pulled(0.1);
     scene.solver.name = solver;
-    scene.solver.tolerance = kTolerance;
+    scene.solver.tolerance = kRingTolerance;
     EXPECT_LE(test::run(scene, {}, kBeforeRelease).counts.steps, 2) << solver;
   }
 }

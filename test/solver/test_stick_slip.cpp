@@ -169,9 +169,8 @@ TEST(Signs, friction_only_takes_energy) {
       test::run(test::scene_of(test::plain, {start, law, "contacts=[edges, corners]"}), [&](const Segment& g) {
         for (int i = 0; i < g.loaded_count; ++i)
           for (const double share : {0.1, 0.5, 0.9}) {
-            const ContactSeries& c = g.loaded[static_cast<std::size_t>(i)];
-            const double t = share * g.duration;
-            const double power = value_at(c.tangential_force, g.order - 1, t) * value_at(c.slip_velocity, g.order, t);
+            const ContactValues c = contact_at(g, i, share * g.duration);
+            const double power = c.tangential_force * c.slip_velocity;
             least = std::min(least, -power);
             taken = std::max(taken, -power);
           }

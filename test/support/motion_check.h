@@ -51,7 +51,7 @@ class MotionCheck {
     if (h > 1e-11)
       for (const double share : {0.003, 0.08, 0.21, 0.37, 0.5, 0.66, 0.83, 0.93, 0.997}) check_at(share * h);
     // a leap is long: nothing may be passed over
-    if (g.flight != nullptr)
+    if (g.flight != nullptr || g.layer_crossing != nullptr)
       for (int i = 1; i < 60; ++i) check_laws(h * i / 60.0);
     check_laws(h);
     expect(distance(g.end, state_at(g, h)) <= 1e-12 * size(g.end), "the end is not that of the series",
@@ -151,16 +151,20 @@ class MotionCheck {
     return value;
   }
 
-  /// What is cut off of a velocity (tolerance_ of its leading terms), seen in its derivative.
+  /// What is cut off of a velocity (tolerance_ of its leading terms), seen in its derivative. Of a crossing of the tanh
+  /// layer: of its polynomials, whose degree is at most 40.
   double cut_off(const Series& v) const {
+    if (g_->layer_crossing != nullptr) return 4.0 * 40.0 * tolerance_ * speed(g_->begin) / g_->duration;
     double lead = 0.0, power = 1.0;
     for (std::size_t k = 0; k < 4; ++k, power *= g_->duration) lead = std::max(lead, std::abs(v[k]) * power);
     return 4.0 * g_->order * tolerance_ * lead / g_->duration;
   }
 
-  /// The same of a flight in closed form, by differences of fourth order.
-  double flight_derivative(double State::*rate, double t) const {
-    const double h = 3e-3 / fastest_;
+  static double speed(const State& a) { return std::abs(a.vx) + std::abs(a.vy) + std::abs(a.omega); }
+
+  /// Derivative of a velocity that is not a series in time, by differences of fourth order.
+  double difference(double State::*rate, double t) const {
+    const double h = g_->flight != nullptr ? 3e-3 / fastest_ : 1e-3 * g_->duration;
     const auto at = [&](double s) { return state_at(*g_, t + s).*rate; };
     return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
   }
@@ -178,15 +182,15 @@ class MotionCheck {
     double forces = 1.0 + std::abs(fx) + std::abs(fy) + std::abs(m);
     double stiff = 1.0;
     for (int i = 0; i < g.loaded_count; ++i) {
-      const ContactSeries& series = g.loaded[static_cast<std::size_t>(i)];
-      const ContactState& contact = g.contacts[static_cast<std::size_t>(series.site)];
-      const Point p = point(q, static_cast<int>(series.site), contact.face);
+      const Site site = g.loaded[static_cast<std::size_t>(i)].site;
+      const ContactState& contact = g.contacts[static_cast<std::size_t>(site)];
+      const ContactValues values = contact_at(g, i, t);
+      const Point p = point(q, static_cast<int>(site), contact.face);
       const double n = p.stiffness * p.depth + p.damping * p.depth_rate;
       const double digits = 1e-14 * (p.stiffness + p.damping) * size(q) + 1e3 * tolerance_ * (1.0 + std::abs(n));
-      expect(std::abs(value_at(series.normal_force, g.order, t) - n) <= digits, "N is not k d + h d'",
-             value_at(series.normal_force, g.order, t) - n);
+      expect(std::abs(values.normal_force - n) <= digits, "N is not k d + h d'", values.normal_force - n);
       expect(n >= -digits, "the base pulls", n);
-      const double tangential = value_at(series.tangential_force, g.order - 1, t);
+      const double tangential = values.tangential_force;
       check_friction(contact.slip, n, tangential, p.slip, digits, size(q),
                      cut_off(g.vx) + cut_off(g.vy) + cut_off(g.omega));
       const double px = n * p.nx + tangential * p.ny, py = n * p.ny - tangential * p.nx;
@@ -201,7 +205,8 @@ class MotionCheck {
     const double cut =
         g.loaded_count > 0 ? cut_off(g.vx) + cut_off(g.vy) + system_.phi.inertia * cut_off(g.omega) : 0.0;
     const auto axis = [&](const Axis& a, const Series& v, double State::*rate, double force, const char* what) {
-      const double acceleration = g.flight != nullptr ? flight_derivative(rate, t) : derivative(v, g.order, t);
+      const bool is_series = g.flight == nullptr && g.layer_crossing == nullptr;
+      const double acceleration = is_series ? derivative(v, g.order, t) : difference(rate, t);
       if (!a.moves) return expect(acceleration == 0.0, "a locked motion moves", acceleration);
       const double residual = acceleration - force / a.inertia;
       const double error = g.flight != nullptr ? 1e-8 * (fastest_ * size(q) + forces / a.inertia)
