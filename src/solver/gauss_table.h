@@ -26,6 +26,11 @@ struct GaussTable {
   std::size_t octets() const { return count / kStep; }
 };
 
+/// Of values at the nodes the one at node j.
+VIBRATORY_ALIGNMENT_INLINE double of_node(const std::array<Octet, GaussTable::kOctets>& values, std::size_t j) {
+  return values[j / Octet::kSize][j % Octet::kSize];
+}
+
 /// The table for at least so many nodes (at most kMost), computed on the first call.
 const GaussTable& gauss_table(std::size_t count);
 

@@ -12,17 +12,20 @@
 namespace vibratory_alignment {
 namespace {
 
-/// T has poles at distances of pi/2 eps from the real axis of V: the width of the map that leads them away.
-constexpr double kWidth = 1.5707963267948966;
-
 /// Most share of V' that friction takes at the far side, as N is now: more may make V turn.
 constexpr double kMostFriction = 0.95;
 
 /// Radians of the base that a crossing may take at most: what N does in them is found by iteration.
 constexpr double kMostRadians = 10.0;
 
+/// Radians of the base in which N is first guessed to go on as it does at the start.
+constexpr double kFewRadians = 2.0;
+
 /// N of a crossing is nowhere below this share of its largest.
 constexpr double kLeastForce = 0.05;
+
+/// Error that the iteration leaves, as a share of the tolerance: it is cheap.
+constexpr double kIterationShare = 0.1;
 
 /// Iterations at most, and the share of its last change that one may leave.
 constexpr int kMostIterations = 16;
@@ -34,16 +37,11 @@ constexpr double kRounding = 4e-15;
 /// What accelerations may be larger between the nodes than at them.
 constexpr double kBetween = 1.1;
 
-/// Iterations by which a time's place is found, and the largest N.
-constexpr int kPlaceIterations = 50, kForceIterations = 40;
-
+VIBRATORY_ALIGNMENT_INLINE Octet smaller(const Octet& a, const Octet& b) {
+  return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
+}
 VIBRATORY_ALIGNMENT_INLINE Octet larger(const Octet& a, const Octet& b) {
   return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
-}
-
-/// Of values at the nodes, eight in each, the one at node j.
-VIBRATORY_ALIGNMENT_INLINE double of_node(const std::array<Octet, GaussTable::kOctets>& values, std::size_t j) {
-  return values[j / Octet::kSize][j % Octet::kSize];
 }
 
 /// Integrals from the start to every node of rates at the nodes.
@@ -52,8 +50,11 @@ VIBRATORY_ALIGNMENT_INLINE void integrate_to_nodes(const GaussTable& table, cons
                                                    std::array<Stages, kCount>& integrals) {
   for (std::size_t i = 0; i < table.octets(); ++i) {
     std::array<Octet, kCount> sum{};
-    for (std::size_t j = 0; j < table.count; ++j)
-      for (std::size_t c = 0; c < kCount; ++c) sum[c] += table.integral[j][i] * of_node(rates[c], j);
+    for (std::size_t octet = 0; octet < table.octets(); ++octet)
+#pragma GCC unroll 8
+      for (std::size_t j = 0; j < Octet::kSize; ++j)
+        for (std::size_t c = 0; c < kCount; ++c)
+          sum[c] += table.integral[octet * Octet::kSize + j][i] * rates[c][octet][j];
     for (std::size_t c = 0; c < kCount; ++c) integrals[c][i] = sum[c];
   }
 }
@@ -93,24 +94,31 @@ bool LayerCrossing::look_at_start(const ContactStates& contacts) {
 
   const PlacedState placed(start_);
   const ContactPoint contact = contact_point(system_, placed, site_, face_, site_point(system_, placed, site_));
-  const double lever = contact.tangent_lever();
-  of_friction_ = {system_.x.inverse_inertia * contact.tangent.x, system_.y.inverse_inertia * contact.tangent.y,
-                  system_.phi.inverse_inertia * lever};
-  friction_mobility_ =
-      contact.tangent.x * of_friction_.x + contact.tangent.y * of_friction_.y + lever * of_friction_.phi;
-  slip_rate_at_start_ =
-      contact.tangent.x * forces.ax + contact.tangent.y * forces.ay + lever * forces.alpha + contact.slip_rate;
+  const Vec2 &n = contact.normal, &t = contact.tangent;
+  const double normal_lever = contact.normal_lever(), tangent_lever = contact.tangent_lever();
+  const auto along = [&](const Vec2& way, double lever, double ax, double ay, double alpha) {
+    return way.x * ax + way.y * ay + lever * alpha;
+  };
+  const auto effect_of = [&](const Vec2& force, double lever) {
+    const double ax = system_.x.inverse_inertia * force.x, ay = system_.y.inverse_inertia * force.y,
+                 alpha = system_.phi.inverse_inertia * lever;
+    return Effect{ax, ay, alpha, along(t, tangent_lever, ax, ay, alpha)};
+  };
+  of_push_ = effect_of(n, normal_lever);
+  of_friction_ = effect_of(t, tangent_lever);
+  slip_rate_at_start_ = along(t, tangent_lever, forces.ax, forces.ay, forces.alpha) + contact.slip_rate;
+  // N = k d + h d' with d'' of now
+  const double depth_acceleration = -along(n, normal_lever, forces.ax, forces.ay, forces.alpha);
+  push_rate_at_start_ = contact.stiffness * contact.depth_rate + contact.damping * depth_acceleration;
+  push_acceleration_at_start_ = 0.5 * contact.stiffness * depth_acceleration;
   way_ = slip_rate_at_start_ < 0.0 ? -1.0 : 1.0;
 
-  const double driven = way_ * (slip_rate_at_start_ - friction_mobility_ * friction_at_start_);
-  const double held = friction_mobility_ * system_.friction * normal_force_at_start_;
+  const double driven = way_ * (slip_rate_at_start_ - of_friction_.slip_rate * friction_at_start_);
+  const double held = of_friction_.slip_rate * system_.friction * normal_force_at_start_;
   if (!(normal_force_at_start_ > 0.0 && held > 0.0 && held <= kMostFriction * driven)) return false;
   centre_ = std::atanh(held / driven);
 
-  const double normal_lever = contact.normal_lever();
-  const double mobility = contact.normal.x * contact.normal.x * system_.x.inverse_inertia +
-                          contact.normal.y * contact.normal.y * system_.y.inverse_inertia +
-                          normal_lever * normal_lever * system_.phi.inverse_inertia;
+  const double mobility = along(n, normal_lever, of_push_.x, of_push_.y, of_push_.phi);
   base_rate_ = std::sqrt(contact.stiffness * mobility) + contact.damping * mobility;
   return way_ * share_at_start_ < system_.tanh_saturation;
 }
@@ -131,26 +139,29 @@ bool LayerCrossing::place_nodes() {
 /// Collocation by iteration: with V given at the nodes, forces and accelerations follow from the states, and times and
 /// states from these. False where that does not converge to a crossing.
 bool LayerCrossing::solve(SolverCounts& counts) {
-  guess();
+  if (!guess()) return false;
   integrate();
-  if (!(of_node(time_, table_->count - 1) * base_rate_ <= kMostRadians)) return false;
-  double before = 1.0;
+  double before = 0.0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     evaluate();
     counts.rhs_evaluations += static_cast<long>(table_->count);
     if (!passes()) return false;
     const double change = integrate();
-    if (change <= tolerance_) return true;
-    if (!(change <= kSlow * before)) return false;
+    const double shrinks = before > 0.0 ? change / before : kSlow;
+    if (change * shrinks <= kIterationShare * tolerance_) return true;  // what the next one would change
+    if (!(shrinks <= kSlow)) return false;
     before = change;
   }
   return false;
 }
 
-/// The map at the nodes, and accelerations there with N as it is at the start.
-void LayerCrossing::guess() {
+/// The map at the nodes, and accelerations there with N as at the start, then as it would go on from there without
+/// friction. False where that takes too many radians of the base.
+bool LayerCrossing::guess() {
+  bool is_short = false;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
     const double scale = way_ * system_.regularization, friction = system_.friction;
+    std::array<Stages, 1> pace, time;
     for (std::size_t i = 0; i < table_->octets(); ++i) {
       const Octet w = first_ + half_ * (1.0 + table_->node[i]), size = abs(w);
       Octet change, left, tanh;
@@ -164,15 +175,26 @@ void LayerCrossing::guess() {
       tanh_[i] = way_ * tanh;
       stretch_[i] = (scale * kWidth) * cosh;
       const Octet more = -(friction * normal_force_at_start_) * tanh_[i] - friction_at_start_;
-      pace_[i] = stretch_[i] / (slip_rate_at_start_ + friction_mobility_ * more);
-      ax_[i] = acceleration_at_start_.x + of_friction_.x * more;
-      ay_[i] = acceleration_at_start_.y + of_friction_.y * more;
-      alpha_[i] = acceleration_at_start_.phi + of_friction_.phi * more;
+      pace[0][i] = half_ * stretch_[i] / (slip_rate_at_start_ + of_friction_.slip_rate * more);
+    }
+    integrate_to_nodes(*table_, pace, time);
+    const double radians = base_rate_ * of_node(time[0], table_->count - 1);
+    is_short = radians <= kMostRadians;
+    const double goes_on = radians <= kFewRadians ? 1.0 : 0.0;
+    for (std::size_t i = 0; i < table_->octets(); ++i) {
+      const Octet& t = time[0][i];
+      const Octet push = goes_on * t * (push_rate_at_start_ + push_acceleration_at_start_ * t);
+      const Octet drag = -friction * tanh_[i] * (normal_force_at_start_ + push) - friction_at_start_;
+      pace_[i] = stretch_[i] / (slip_rate_at_start_ + of_push_.slip_rate * push + of_friction_.slip_rate * drag);
+      ax_[i] = acceleration_at_start_.x + of_push_.x * push + of_friction_.x * drag;
+      ay_[i] = acceleration_at_start_.y + of_push_.y * push + of_friction_.y * drag;
+      alpha_[i] = acceleration_at_start_.phi + of_push_.phi * push + of_friction_.phi * drag;
       time_[i] = 0.0;
       states_[i] = {start_.x, start_.y, start_.phi, start_.vx, start_.vy, start_.omega};
     }
   });
   pace_at_start_ = way_ * system_.regularization * kWidth * std::cosh(first_) / slip_rate_at_start_;
+  return is_short;
 }
 
 /// Forces and accelerations at the nodes, with T as V tells, and with them the pace of time.
@@ -206,18 +228,24 @@ void LayerCrossing::evaluate() {
 }
 
 /// True as long as V goes on its way at every node and N pushes.
-bool LayerCrossing::passes() const {
-  double least_pace = pace_at_start_, least_force = normal_force_at_start_, most_force = normal_force_at_start_;
-  for (std::size_t i = 0; i < table_->octets(); ++i) {
-    least_pace = std::min(least_pace, -largest(-pace_[i]));
-    least_force = std::min(least_force, -largest(-normal_force_[i]));
-    most_force = std::max(most_force, largest(normal_force_[i]));
-  }
-  return least_pace > 0.0 && least_force > kLeastForce * most_force;
+bool LayerCrossing::passes() {
+  bool pass = false;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    Octet slowest = pace_[0], least = normal_force_[0], most = least;
+    for (std::size_t i = 1; i < table_->octets(); ++i) {
+      slowest = smaller(slowest, pace_[i]);
+      least = smaller(least, normal_force_[i]);
+      most = larger(most, normal_force_[i]);
+    }
+    least_force_ = std::min(-largest(-least), normal_force_at_start_);
+    most_force_ = std::max(largest(most), normal_force_at_start_);
+    pass = -largest(-slowest) > 0.0 && least_force_ > kLeastForce * most_force_;
+  });
+  return pass;
 }
 
-/// Times, velocities and positions at the nodes from pace and accelerations. Returns the largest change, of times
-/// relative to the duration and of velocities relative to the part's speed.
+/// Times, velocities and positions at the nodes from pace and accelerations. Returns the largest change at the last
+/// nodes, up to which it adds up, of times relative to the duration and of velocities relative to the part's speed.
 double LayerCrossing::integrate() {
   double change = 0.0;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
@@ -232,23 +260,25 @@ double LayerCrossing::integrate() {
       rates[3][i] = pace * alpha_[i];
     }
     integrate_to_nodes(*table_, rates, integrals);
-    Octet time_change = 0.0, speed_change = 0.0, speed = 0.0, latest = 0.0;
+    const std::size_t end = octets - 1;
+    const Octet& t = integrals[0][end];
+    const Octet vx = start_.vx + integrals[1][end], vy = start_.vy + integrals[2][end],
+                omega = start_.omega + integrals[3][end];
+    const StateOctet& before = states_[end];
+    const Octet of_times = abs(t - time_[end]) / t[Octet::kSize - 1],
+                of_speeds = (abs(vx - before.vx) + abs(vy - before.vy) + reach * abs(omega - before.omega)) /
+                            largest(abs(vx) + abs(vy) + reach * abs(omega));
+    change = largest(larger(of_times, of_speeds));
     std::array<Stages, 3> velocities, ways;
     for (std::size_t i = 0; i < octets; ++i) {
       StateOctet& q = states_[i];
-      const Octet vx = start_.vx + integrals[1][i], vy = start_.vy + integrals[2][i],
-                  omega = start_.omega + integrals[3][i];
-      time_change = larger(time_change, abs(integrals[0][i] - time_[i]));
-      speed_change = larger(speed_change, abs(vx - q.vx) + abs(vy - q.vy) + reach * abs(omega - q.omega));
-      speed = larger(speed, abs(vx) + abs(vy) + reach * abs(omega));
-      latest = larger(latest, integrals[0][i]);
       time_[i] = integrals[0][i];
-      q.vx = vx;
-      q.vy = vy;
-      q.omega = omega;
-      velocities[0][i] = rates[0][i] * vx;
-      velocities[1][i] = rates[0][i] * vy;
-      velocities[2][i] = rates[0][i] * omega;
+      q.vx = start_.vx + integrals[1][i];
+      q.vy = start_.vy + integrals[2][i];
+      q.omega = start_.omega + integrals[3][i];
+      velocities[0][i] = rates[0][i] * q.vx;
+      velocities[1][i] = rates[0][i] * q.vy;
+      velocities[2][i] = rates[0][i] * q.omega;
     }
     integrate_to_nodes(*table_, velocities, ways);
     for (std::size_t i = 0; i < octets; ++i) {
@@ -256,25 +286,31 @@ double LayerCrossing::integrate() {
       states_[i].y = start_.y + ways[1][i];
       states_[i].phi = start_.phi + ways[2][i];
     }
-    const double of_time = largest(time_change) / largest(latest), of_speed = largest(speed_change) / largest(speed);
-    change = of_time > of_speed ? of_time : of_speed;
   });
   return change;
 }
 
 /// Error of the duration that the last Legendre coefficients of the pace tell of, relative to it.
 double LayerCrossing::unresolved() const {
-  double before_last = 0.0, last = 0.0, mean = 0.0;
-  for (std::size_t i = 0; i < table_->octets(); ++i) {
-    before_last += sum(table_->last[0][i] * pace_[i]);
-    last += sum(table_->last[1][i] * pace_[i]);
-    mean += sum(table_->weight[i] * pace_[i]);
-  }
-  return (std::abs(before_last) + std::abs(last)) / (static_cast<double>(table_->count) * mean);
+  double error = 0.0;
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    Octet before_last = 0.0, last = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < table_->octets(); ++i) {
+      before_last += table_->last[0][i] * pace_[i];
+      last += table_->last[1][i] * pace_[i];
+      mean += table_->weight[i] * pace_[i];
+    }
+    error = (std::abs(sum(before_last)) + std::abs(sum(last))) / (static_cast<double>(table_->count) * sum(mean));
+  });
+  return error;
 }
 
 /// The end, by the quadrature of the nodes, and the bounds.
 void LayerCrossing::finish() {
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { finish_widely(); });
+}
+
+VIBRATORY_ALIGNMENT_INLINE void LayerCrossing::finish_widely() {
   Octet time = 0.0, vx = 0.0, vy = 0.0, omega = 0.0, x = 0.0, y = 0.0, phi = 0.0, ax = 0.0, ay = 0.0, alpha = 0.0;
   for (std::size_t i = 0; i < table_->octets(); ++i) {
     const Octet pace = half_ * table_->weight[i] * pace_[i];
@@ -292,149 +328,10 @@ void LayerCrossing::finish() {
   duration_ = sum(time);
   end_ = {start_.x + sum(x),   start_.y + sum(y),   start_.phi + sum(phi),
           start_.vx + sum(vx), start_.vy + sum(vy), start_.omega + sum(omega)};
-  double least_force = normal_force_at_start_, most_force = normal_force_at_start_;
-  for (std::size_t i = 0; i < table_->octets(); ++i) {
-    least_force = std::min(least_force, -largest(-normal_force_[i]));
-    most_force = std::max(most_force, largest(normal_force_[i]));
-  }
-  most_normal_force_ = least_force + kBetween * (most_force - least_force);
+  most_normal_force_ = least_force_ + kBetween * (most_force_ - least_force_);
   most_acceleration_ = {kBetween * std::max(largest(ax), std::abs(acceleration_at_start_.x)),
                         kBetween * std::max(largest(ay), std::abs(acceleration_at_start_.y)),
                         kBetween * std::max(largest(alpha), std::abs(acceleration_at_start_.phi))};
-}
-
-/// V.
-double LayerCrossing::slip_at(double place) const {
-  return way_ * system_.regularization * (centre_ + kWidth * std::sinh(first_ + half_ * (1.0 + place)));
-}
-
-/// What the values at the start and at the nodes count at a place: Lagrange's polynomials.
-LayerCrossing::Basis LayerCrossing::basis_at(double place) const {
-  Basis basis{};
-  double total = 0.0;
-  for (std::size_t j = 0; j <= table_->count; ++j) {
-    const double away = place - (j == 0 ? -1.0 : of_node(table_->node, j - 1));
-    if (away == 0.0) {
-      basis = {};
-      basis[j] = 1.0;
-      return basis;
-    }
-    basis[j] = table_->barycentric[j] / away;
-    total += basis[j];
-  }
-  for (double& of_value : basis) of_value /= total;
-  return basis;
-}
-
-double LayerCrossing::interpolate(const Basis& basis, double at_start, const Stages& at_nodes) const {
-  double value = basis[0] * at_start;
-  for (std::size_t j = 0; j < table_->count; ++j) value += basis[j + 1] * of_node(at_nodes, j);
-  return value;
-}
-
-/// Newton's method from between the nodes next to it, within what is known to hold the place.
-double LayerCrossing::place_at(double t) const {
-  if (!(t > 0.0)) return -1.0;
-  if (t >= duration_) return 1.0;
-  double low = -1.0, high = 1.0, before = 0.0, after = duration_;
-  for (std::size_t j = 0; j < table_->count; ++j) {
-    const double time = of_node(time_, j), node = of_node(table_->node, j);
-    if (time > t) {
-      high = node;
-      after = time;
-      break;
-    }
-    low = node;
-    before = time;
-  }
-  double place = low + (high - low) * (t - before) / (after - before);
-  for (int iteration = 0; iteration < kPlaceIterations; ++iteration) {
-    const Basis basis = basis_at(place);
-    const double late = interpolate(basis, 0.0, time_) - t;
-    const double next = place - late / (half_ * interpolate(basis, pace_at_start_, pace_));
-    if (std::abs(next - place) <= kRounding) break;
-    (late > 0.0 ? high : low) = place;
-    place = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  return place;
-}
-
-State LayerCrossing::state_at_place(double place) const {
-  if (place == 1.0) return end_;
-  const Basis basis = basis_at(place);
-  const auto at = [&](double State::*coordinate, Octet StateOctet::*at_nodes) {
-    double value = basis[0] * start_.*coordinate;
-    for (std::size_t j = 0; j < table_->count; ++j)
-      value += basis[j + 1] * (states_[j / Octet::kSize].*at_nodes)[j % Octet::kSize];
-    return value;
-  };
-  return {at(&State::x, &StateOctet::x),   at(&State::y, &StateOctet::y),   at(&State::phi, &StateOctet::phi),
-          at(&State::vx, &StateOctet::vx), at(&State::vy, &StateOctet::vy), at(&State::omega, &StateOctet::omega)};
-}
-
-ContactValues LayerCrossing::contact_at_place(double place) const {
-  const PlacedState placed(state_at_place(place));
-  const ContactPoint contact = contact_point(system_, placed, site_, face_, site_point(system_, placed, site_));
-  const double slip = slip_at(place), normal_force = contact.push();
-  return {contact.depth, normal_force, -system_.friction * std::tanh(slip / system_.regularization) * normal_force,
-          slip};
-}
-
-Load3 LayerCrossing::drive_at(double t) const { return load_at(drives_, t); }
-
-/// Golden section between the neighbours of the largest of the values at both ends and the nodes between them.
-double LayerCrossing::largest_normal_force(double from, double to) const {
-  constexpr double kGolden = 0.6180339887498949;
-  const auto force_at = [&](double place) { return contact_at_place(place).normal_force; };
-  std::array<double, GaussTable::kMost + 2> places;
-  std::size_t count = 0, of_most = 0;
-  places[count++] = place_at(from);
-  for (std::size_t j = 0; j < table_->count; ++j) {
-    const double place = of_node(table_->node, j);
-    if (place > places[0]) places[count++] = place;
-  }
-  const double last = place_at(to);
-  while (count > 1 && places[count - 1] >= last) --count;
-  places[count++] = last;
-  double most = force_at(places[0]);
-  for (std::size_t i = 1; i < count; ++i) {
-    const double force = force_at(places[i]);
-    if (!(force > most)) continue;
-    most = force;
-    of_most = i;
-  }
-  if (of_most == 0 || of_most == count - 1) return most;
-  double low = places[of_most - 1], high = places[of_most + 1];
-  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-  double at_left = force_at(left), at_right = force_at(right);
-  for (int iteration = 0; iteration < kForceIterations; ++iteration) {
-    if (at_left > at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      left = high - kGolden * (high - low);
-      at_left = force_at(left);
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      right = low + kGolden * (high - low);
-      at_right = force_at(right);
-    }
-  }
-  return std::max({most, at_left, at_right});
-}
-
-LayerCrossing::Quadrature LayerCrossing::quadrature(double from, double to) const {
-  const double first = place_at(from), half = 0.5 * (place_at(to) - first);
-  Quadrature quadrature;
-  quadrature.count = table_->count;
-  for (std::size_t j = 0; j < table_->count; ++j) {
-    const Basis basis = basis_at(first + half * (1.0 + of_node(table_->node, j)));
-    quadrature.time[j] = interpolate(basis, 0.0, time_);
-    quadrature.weight[j] = half * of_node(table_->weight, j) * half_ * interpolate(basis, pace_at_start_, pace_);
-  }
-  return quadrature;
 }
 
 }  // namespace vibratory_alignment

@@ -49,16 +49,21 @@ class LayerCrossing {
  private:
   using Stages = std::array<Octet, GaussTable::kOctets>;
   using Basis = std::array<double, GaussTable::kMost + 1>;
+  /// What a force of one along n or t makes of x'', y'', phi'' and V'.
+  struct Effect {
+    double x = 0.0, y = 0.0, phi = 0.0, slip_rate = 0.0;
+  };
 
   bool look_at_start(const ContactStates& contacts);
   bool place_nodes();
   bool solve(SolverCounts& counts);
-  void guess();
+  bool guess();
   void evaluate();
   double integrate();
-  bool passes() const;
+  bool passes();
   double unresolved() const;
   void finish();
+  void finish_widely();
 
   double slip_at(double place) const;
   Basis basis_at(double place) const;
@@ -76,16 +81,19 @@ class LayerCrossing {
   DriveForms drives_;
   Site site_ = Site::a1;
   Face face_ = Face::none;
-  double share_at_start_ = 0.0;                ///< V/eps
-  double normal_force_at_start_ = 0.0;         ///< N
-  double friction_at_start_ = 0.0;             ///< T
-  double slip_rate_at_start_ = 0.0;            ///< V'
-  double friction_mobility_ = 0.0;             ///< V' that T = 1 makes
-  Load3 acceleration_at_start_, of_friction_;  ///< x'', y'', phi'', and those that T = 1 makes
-  double way_ = 1.0;                           ///< sign of V'
-  double base_rate_ = 0.0;                     ///< of what the base answers with, rad per unit of time
+  double share_at_start_ = 0.0;                                         ///< V/eps
+  double normal_force_at_start_ = 0.0;                                  ///< N
+  double friction_at_start_ = 0.0;                                      ///< T
+  double slip_rate_at_start_ = 0.0;                                     ///< V'
+  double push_rate_at_start_ = 0.0, push_acceleration_at_start_ = 0.0;  ///< N = N(0) + rate t + acceleration t^2
+  Load3 acceleration_at_start_;                                         ///< x'', y'', phi''
+  Effect of_push_, of_friction_;
+  double way_ = 1.0;        ///< sign of V'
+  double base_rate_ = 0.0;  ///< of what the base answers with, rad per unit of time
 
-  // V = way eps (centre + kWidth sinh w), w = first + half (1 + place), -1 <= place <= 1
+  // V = way eps (centre + kWidth sinh w), w = first + half (1 + place), -1 <= place <= 1. T has poles pi/2 eps from the
+  // real axis of V, which the map leads away.
+  static constexpr double kWidth = 1.5707963267948966;
   double centre_ = 0.0, first_ = 0.0, half_ = 0.0;
   double pace_at_start_ = 0.0;  ///< dt/dw
 
@@ -95,6 +103,7 @@ class LayerCrossing {
   std::array<StateOctet, GaussTable::kOctets> states_;
   Stages ax_, ay_, alpha_;  ///< x'', y'', phi''
   Stages normal_force_;
+  double least_force_ = 0.0, most_force_ = 0.0;  ///< of N at the start and the nodes
 
   double duration_ = 0.0;
   State end_;

@@ -118,10 +118,12 @@ int series_order(double tolerance) {
 
 int straight_series_order(double tolerance, double radians) {
   // terms grow to exp(radians) of what they sum to, and leave rounding of that
-  const double log_radians = std::log(std::min(radians, std::log(tolerance / kUnitRounding)));
-  int order = series_order(tolerance);
+  const double most = std::min(radians, std::log(tolerance / kUnitRounding));
+  const int least = series_order(tolerance);
   // the last term of a ring is radians^order/order!
-  while (order < kMaxOrder - 2 && order * log_radians - std::lgamma(order + 1.0) > std::log(tolerance)) ++order;
+  double term = 1.0;
+  int order = 0;
+  while (order < least || (order < kMaxOrder - 2 && term > tolerance)) term *= most / ++order;
   return order;
 }
 

@@ -8,10 +8,6 @@
 namespace vibratory_alignment {
 namespace {
 
-double of_node(const std::array<Octet, GaussTable::kOctets>& values, std::size_t i) {
-  return values[i / Octet::kSize][i % Octet::kSize];
-}
-
 class GaussTableOf : public testing::TestWithParam<std::size_t> {
  protected:
   const GaussTable& table_ = gauss_table(GetParam());
