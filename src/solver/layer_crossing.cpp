@@ -107,8 +107,10 @@ bool LayerCrossing::look_at_start(const ContactStates& contacts) {
   of_push_ = effect_of(n, normal_lever);
   of_friction_ = effect_of(t, tangent_lever);
   slip_rate_at_start_ = along(t, tangent_lever, forces.ax, forces.ay, forces.alpha) + contact.slip_rate;
-  // N = k d + h d' with d'' of now
-  const double depth_acceleration = -along(n, normal_lever, forces.ax, forces.ay, forces.alpha);
+  // N = k d + h d' with d'' of now, but without T, which changes its sign
+  const double depth_acceleration =
+      friction_at_start_ * along(n, normal_lever, of_friction_.x, of_friction_.y, of_friction_.phi) -
+      along(n, normal_lever, forces.ax, forces.ay, forces.alpha);
   push_rate_at_start_ = contact.stiffness * contact.depth_rate + contact.damping * depth_acceleration;
   push_acceleration_at_start_ = 0.5 * contact.stiffness * depth_acceleration;
   way_ = slip_rate_at_start_ < 0.0 ? -1.0 : 1.0;
