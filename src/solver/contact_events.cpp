@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mechanics/site_rules.h"
+#include "mechanics/tilt.h"
 #include "solver/base_recovery.h"
 #include "solver/contact_point.h"
 #include "solver/polynomial_roots.h"
@@ -51,8 +52,27 @@ class Search {
         drives_(drives),
         order_(segment.order),
         duration_(segment.duration),
+        cos_phi_(segment.cos_phi[0]),
+        sin_phi_(segment.sin_phi[0]),
         found_(found) {
     bound_motion();
+  }
+
+  /// For only_forces_act(), of a segment that has no series.
+  Search(const System& system, MotionSeries& series, Segment& segment, const MotionBounds& motion, const Pins& pins,
+         const Recoveries& recoveries, const DriveForms& drives, FoundEvents& found)
+      : system_(system),
+        series_(series),
+        segment_(segment),
+        pins_(pins),
+        recoveries_(recoveries),
+        drives_(drives),
+        order_(0),
+        duration_(motion.duration),
+        cos_phi_(tilt_of(segment.begin.phi).cos),
+        sin_phi_(tilt_of(segment.begin.phi).sin),
+        found_(found) {
+    set_bounds(motion.acceleration);
   }
 
   void run(const OutcomeGuards& outcomes) {
@@ -110,9 +130,7 @@ class Search {
     return true;
   }
 
-  Vec2 start_point(Site site) const {
-    return site_point(system_, segment_.begin, site, segment_.cos_phi[0], segment_.sin_phi[0]);
-  }
+  Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site, cos_phi_, sin_phi_); }
 
   /// Largest speeds of the axes during the segment, and accelerations that bound how far from their tangents they go.
   void bound_motion() {
@@ -125,12 +143,16 @@ class Search {
                                               : moment) += most;
     }
     const Load3 terms = mean_accelerations();
-    const double ax = bound_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x);
-    const double ay = bound_acceleration(system_.y, segment_.y, segment_.vy, force_y, terms.y);
-    turn_acceleration_ = bound_acceleration(system_.phi, segment_.phi, segment_.omega, moment, terms.phi);
-    acceleration_ = ax + ay;
-    speed_ = std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + acceleration_ * duration_;
-    turn_rate_ = std::abs(segment_.omega[0]) + turn_acceleration_ * duration_;
+    set_bounds({bound_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x),
+                bound_acceleration(system_.y, segment_.y, segment_.vy, force_y, terms.y),
+                bound_acceleration(system_.phi, segment_.phi, segment_.omega, moment, terms.phi)});
+  }
+
+  void set_bounds(const Load3& acceleration) {
+    acceleration_ = acceleration.x + acceleration.y;
+    turn_acceleration_ = acceleration.phi;
+    speed_ = std::abs(segment_.begin.vx) + std::abs(segment_.begin.vy) + acceleration_ * duration_;
+    turn_rate_ = std::abs(segment_.begin.omega) + turn_acceleration_ * duration_;
   }
 
   /// Sums of the absolute values of the terms of (v(t) - v(0))/t: A, of which |v(t) - v(0)| <= A t and
@@ -166,17 +188,17 @@ class Search {
   };
 
   PointBound bound_point(Site site) const {
-    const double vx = segment_.vx[0], vy = segment_.vy[0], omega = segment_.omega[0];
+    const double vx = segment_.begin.vx, vy = segment_.begin.vy, omega = segment_.begin.omega;
     PointBound bound;
     bound.p = start_point(site);
     double reach = 0.0;
     if (is_edge(site)) {
       // (u, w)' = -(v.e1, v.e2) + omega (w, -u)
-      const double c = segment_.cos_phi[0], s = segment_.sin_phi[0];
+      const double c = cos_phi_, s = sin_phi_;
       bound.rate = {-(vx * c + vy * s) + omega * bound.p.y, vx * s - vy * c - omega * bound.p.x};
       reach = std::abs(bound.p.x) + std::abs(bound.p.y) + speed_ * duration_;
     } else {
-      const double rx = bound.p.x - segment_.x[0], ry = bound.p.y - segment_.y[0];
+      const double rx = bound.p.x - segment_.begin.x, ry = bound.p.y - segment_.begin.y;
       bound.rate = {vx - omega * ry, vy + omega * rx};
       reach = std::abs(rx) + std::abs(ry);
     }
@@ -505,6 +527,7 @@ class Search {
   const DriveForms& drives_;
   int order_;
   double duration_;
+  double cos_phi_, sin_phi_;      ///< at the start
   double found_at_forces_ = 0.0;  ///< time of the first event of normal forces and friction, if there is one
   double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
   std::optional<SeriesNoise> noise_;  ///< once it has been asked for
@@ -519,10 +542,11 @@ void find_events(const System& system, MotionSeries& series, Segment& segment, c
   Search(system, series, segment, pins, recoveries, drives, found).run(outcomes);
 }
 
-bool only_forces_act(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
-                     const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives) {
+bool only_forces_act(const System& system, MotionSeries& series, Segment& segment, const MotionBounds& motion,
+                     const Pins& pins, const Recoveries& recoveries, const OutcomeGuards& outcomes,
+                     const DriveForms& drives) {
   FoundEvents none;
-  return Search(system, series, segment, pins, recoveries, drives, none).only_forces_act(outcomes);
+  return Search(system, series, segment, motion, pins, recoveries, drives, none).only_forces_act(outcomes);
 }
 
 }  // namespace vibratory_alignment

@@ -32,10 +32,16 @@ struct FoundEvents {
                                    const Recoveries& recoveries, const OutcomeGuards& outcomes,
                                    const DriveForms& drives, FoundEvents& found);
 
-/// True when bounds on the motion, with |v(t) - v(0)| <= |v_1| t of each velocity's series, exclude all events of the
-/// segment but those of the loaded contacts' forces and friction. False also where a point is inside without force.
-[[gnu::noinline]] bool only_forces_act(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
-                                       const Recoveries& recoveries, const OutcomeGuards& outcomes,
-                                       const DriveForms& drives);
+/// How long a segment is, and bounds of |x''|, |y''|, |phi''| in it.
+struct MotionBounds {
+  double duration = 0.0;
+  Load3 acceleration;
+};
+
+/// True when these bounds, from the start segment.begin on, exclude all events but those of the loaded contacts' forces
+/// and friction. False also where a point is inside without force. The segment's series are not read.
+[[gnu::noinline]] bool only_forces_act(const System& system, MotionSeries& series, Segment& segment,
+                                       const MotionBounds& motion, const Pins& pins, const Recoveries& recoveries,
+                                       const OutcomeGuards& outcomes, const DriveForms& drives);
 
 }  // namespace vibratory_alignment

@@ -253,41 +253,24 @@ bool EventSolver::cross_layer(double longest, FoundEvents& found) {
   const auto only = std::find_if(contacts.begin(), contacts.end(), is_loaded);
   if (only->slip != Slip::regularized || std::any_of(only + 1, contacts.end(), is_loaded)) return false;
   const auto site = static_cast<Site>(only - contacts.begin());
-  if (!layer_crossing_->take(state_, forms_, contacts, site, counts_)) return false;
-  bound_crossing(site);
-  if (!(segment_.duration < longest) ||
-      !only_forces_act(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, forms_)) {
+  if (!layer_crossing_->take(state_, forms_, contacts, site, longest, counts_)) return false;
+  const MotionBounds motion{layer_crossing_->duration(), layer_crossing_->most_acceleration()};
+  if (!only_forces_act(system_, series_, segment_, motion, mode_.pins, mode_.recoveries, outcomes_, forms_)) {
     ++counts_.rejected;
     return false;
   }
   segment_.layer_crossing = &*layer_crossing_;
-  segment_.end = layer_crossing_->end();
-  found.time = segment_.duration;
-  found.count = 1;
-  found.events[0] = {EventKind::slip, site};
-  return true;
-}
-
-/// The segment as the bounds of a crossing see it: from its start on, with accelerations up to those of the crossing.
-void EventSolver::bound_crossing(Site site) {
-  const Load3& most = layer_crossing_->most_acceleration();
-  const Tilt tilt = tilt_of(state_.phi);
-  segment_.duration = layer_crossing_->duration();
   segment_.coarse = false;
-  segment_.order = 1;
-  segment_.cos_phi[0] = tilt.cos;
-  segment_.sin_phi[0] = tilt.sin;
-  segment_.x[0] = state_.x;
-  segment_.y[0] = state_.y;
-  segment_.phi[0] = state_.phi;
-  segment_.vx[0] = state_.vx;
-  segment_.vy[0] = state_.vy;
-  segment_.omega[0] = state_.omega;
-  segment_.vx[1] = most.x;
-  segment_.vy[1] = most.y;
-  segment_.omega[1] = most.phi;
+  segment_.order = 0;
   segment_.loaded_count = 1;
   segment_.loaded[0].site = site;
+  segment_.duration = motion.duration;
+  segment_.end = layer_crossing_->end();
+  found.time = motion.duration;
+  found.count = 1;
+  found.events[0] = {EventKind::slip, site};
+  choice_.cross_layer();
+  return true;
 }
 
 void EventSolver::start() {

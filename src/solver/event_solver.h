@@ -35,7 +35,6 @@ class EventSolver final : public Solver {
   void begin_segment(bool contact);
   bool leap(double longest, FoundEvents& found);
   bool cross_layer(double longest, FoundEvents& found);
-  void bound_crossing(Site site);
   void take_step(double longest, bool contact);
   void go_along(double step, double longest, double point_tolerance, bool contact);
   double bounded_step(double step, double longest, double point_tolerance, bool contact);

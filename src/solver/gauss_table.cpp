@@ -57,14 +57,22 @@ GaussTable make(std::size_t n) {
       table.last[k][i / Octet::kSize][i % Octet::kSize] =
           static_cast<double>((static_cast<Real>(n - 2 + k) + 0.5L) * weight[i] * p[i][n - 2 + k]);
   }
-  // a polynomial through values at the nodes is the sum of its coefficients times P_k, whose integral is
-  // (P_(k+1) - P_(k-1))/(2 k + 1)
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) {
-      Real sum = 0.5L * (node[i] + 1.0L);
-      for (std::size_t k = 1; k < n; ++k) sum += 0.5L * p[j][k] * (p[i][k + 1] - p[i][k - 1]);
-      table.integral[j][i / Octet::kSize][i % Octet::kSize] = static_cast<double>(weight[j] * sum);
+  // a polynomial through values at the nodes is the sum of its coefficients (k + 1/2) weight P_k(node) times P_k, whose
+  // integral is (P_(k+1) - P_(k-1))/(2 k + 1)
+  using Values = std::array<double, GaussTable::kMost>;
+  std::array<Values, GaussTable::kMost> integral_of_p;  // times k + 1/2
+  for (std::size_t i = 0; i < n; ++i) {
+    integral_of_p[0][i] = static_cast<double>(0.5L * (node[i] + 1.0L));
+    for (std::size_t k = 1; k < n; ++k) integral_of_p[k][i] = static_cast<double>(0.5L * (p[i][k + 1] - p[i][k - 1]));
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    Values sum{};
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto coefficient = static_cast<double>(weight[j] * p[j][k]);
+      for (std::size_t i = 0; i < n; ++i) sum[i] += coefficient * integral_of_p[k][i];
     }
+    for (std::size_t i = 0; i < n; ++i) table.integral[j][i / Octet::kSize][i % Octet::kSize] = sum[i];
+  }
   return table;
 }
 

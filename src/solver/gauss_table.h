@@ -1,4 +1,4 @@
-// Gauss-Legendre collocation on [-1, 1] with 16 to 40 nodes, laid out for values at eight nodes at once: integrals from
+// Gauss-Legendre collocation on [-1, 1] with 16 to 56 nodes, laid out for values at eight nodes at once: integrals from
 // the start to every node, and the polynomial through the value at the start and those at the nodes (Hairer, Norsett
 // and Wanner, Solving Ordinary Differential Equations I, II.7; Berrut and Trefethen, Barycentric Lagrange
 // interpolation).
@@ -12,7 +12,7 @@
 namespace vibratory_alignment {
 
 struct GaussTable {
-  static constexpr std::size_t kLeast = 16, kMost = 40, kStep = Octet::kSize, kOctets = kMost / kStep;
+  static constexpr std::size_t kLeast = 16, kMost = 56, kStep = Octet::kSize, kOctets = kMost / kStep;
 
   std::size_t count = 0;  ///< n, of nodes
   std::array<Octet, kOctets> node, weight;

@@ -16,7 +16,10 @@ namespace {
 constexpr double kMostFriction = 0.95;
 
 /// Radians of the base that a crossing may take at most: what N does in them is found by iteration.
-constexpr double kMostRadians = 10.0;
+constexpr double kMostRadians = 4.0;
+
+/// The first guess of a duration is no farther off than by this factor.
+constexpr double kSurelyTooLong = 2.0;
 
 /// Radians of the base in which N is first guessed to go on as it does at the start.
 constexpr double kFewRadians = 2.0;
@@ -31,12 +34,19 @@ constexpr double kIterationShare = 0.1;
 constexpr int kMostIterations = 16;
 constexpr double kSlow = 0.6;
 
-/// Rounding of a change, relative to what changes.
-constexpr double kRounding = 4e-15;
-
 /// What accelerations may be larger between the nodes than at them.
 constexpr double kBetween = 1.1;
 
+/// Real part of w at V/eps = centre + 3 i pi/2, where it is i pi/2 beside this: asinh 3i.
+constexpr double kNextPole = 1.7627471740390861;
+
+/// log of the sum of the half axes of the ellipse with foci -1 and 1 through a point.
+double log_ellipse(const std::complex<double>& point) {
+  const std::complex<double> root = std::sqrt(point * point - 1.0);
+  return std::log(std::max(std::abs(point + root), std::abs(point - root)));
+}
+
+/// What is no number may be lost in these: it spreads to all values in the next iteration.
 VIBRATORY_ALIGNMENT_INLINE Octet smaller(const Octet& a, const Octet& b) {
   return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
 }
@@ -62,21 +72,30 @@ VIBRATORY_ALIGNMENT_INLINE void integrate_to_nodes(const GaussTable& table, cons
 }  // namespace
 
 LayerCrossing::LayerCrossing(const System& system, double tolerance)
-    : system_(system), tolerance_(std::max(tolerance, kRounding)), table_(&gauss_table(0)) {}
+    : system_(system), tolerance_(std::max(tolerance, kRounding)), table_(&gauss_table(0)) {
+  // made now, not in the first crossing
+  for (std::size_t count = GaussTable::kLeast; count <= GaussTable::kMost; count += GaussTable::kStep)
+    gauss_table(count);
+}
 
 bool LayerCrossing::take(const State& start, const DriveForms& drives, const ContactStates& contacts, Site site,
-                         SolverCounts& counts) {
+                         double longest, SolverCounts& counts) {
   start_ = start;
   drives_ = drives;
   site_ = site;
   face_ = contacts[static_cast<std::size_t>(site)].face;
-  ++counts.rhs_evaluations;
+  longest_ = longest;
+  const long evaluations = ++counts.rhs_evaluations;
   if (!look_at_start(contacts) || !place_nodes()) return false;
-  while (solve(counts)) {
-    if (unresolved() <= tolerance_) {
-      finish();
-      return true;
-    }
+  if (resolve(counts) && finish()) return true;
+  counts.rejected += counts.rhs_evaluations > evaluations;
+  return false;
+}
+
+/// Solves the equations with as many nodes as it takes. False where they are too many or there is no crossing.
+bool LayerCrossing::resolve(SolverCounts& counts) {
+  while (guess() && solve(counts)) {
+    if (unresolved() <= tolerance_) return true;
     if (table_->count == GaussTable::kMost) return false;
     table_ = &gauss_table(table_->count + 1);
   }
@@ -129,9 +148,11 @@ bool LayerCrossing::look_at_start(const ContactStates& contacts) {
 bool LayerCrossing::place_nodes() {
   first_ = std::asinh((way_ * share_at_start_ - centre_) / kWidth);
   half_ = 0.5 * (std::asinh((system_.tanh_saturation - centre_) / kWidth) - first_);
-  // values at the nodes tell of the function between them to rho^-n, rho the ellipse through the pole at w = i pi/2
-  const std::complex<double> pole(-(first_ + half_) / half_, kWidth / half_), root = std::sqrt(pole * pole - 1.0);
-  const double log_rho = std::log(std::max(std::abs(pole + root), std::abs(pole - root)));
+  // values at the nodes tell of the function between them to rho^-n, rho the ellipse through the nearest pole: from
+  // within the layer it may be the next one, V/eps = centre + 3 i pi/2
+  double log_rho = log_ellipse({-(first_ + half_) / half_, kWidth / half_});
+  if (first_ > -kNextPole)
+    log_rho = std::min(log_rho, log_ellipse({(kNextPole - first_ - half_) / half_, kWidth / half_}));
   const double needed = -std::log(tolerance_) / log_rho;
   if (!(needed <= static_cast<double>(GaussTable::kMost))) return false;
   table_ = &gauss_table(static_cast<std::size_t>(std::ceil(needed)));
@@ -141,7 +162,6 @@ bool LayerCrossing::place_nodes() {
 /// Collocation by iteration: with V given at the nodes, forces and accelerations follow from the states, and times and
 /// states from these. False where that does not converge to a crossing.
 bool LayerCrossing::solve(SolverCounts& counts) {
-  if (!guess()) return false;
   integrate();
   double before = 0.0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
@@ -158,7 +178,7 @@ bool LayerCrossing::solve(SolverCounts& counts) {
 }
 
 /// The map at the nodes, and accelerations there with N as at the start, then as it would go on from there without
-/// friction. False where that takes too many radians of the base.
+/// friction. False where that takes too many radians of the base, or surely too long.
 bool LayerCrossing::guess() {
   bool is_short = false;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
@@ -180,8 +200,8 @@ bool LayerCrossing::guess() {
       pace[0][i] = half_ * stretch_[i] / (slip_rate_at_start_ + of_friction_.slip_rate * more);
     }
     integrate_to_nodes(*table_, pace, time);
-    const double radians = base_rate_ * of_node(time[0], table_->count - 1);
-    is_short = radians <= kMostRadians;
+    const double duration = of_node(time[0], table_->count - 1), radians = base_rate_ * duration;
+    is_short = radians <= kMostRadians && duration < kSurelyTooLong * longest_;
     const double goes_on = radians <= kFewRadians ? 1.0 : 0.0;
     for (std::size_t i = 0; i < table_->octets(); ++i) {
       const Octet& t = time[0][i];
@@ -292,24 +312,32 @@ double LayerCrossing::integrate() {
   return change;
 }
 
-/// Error of the duration that the last Legendre coefficients of the pace tell of, relative to it.
+/// Errors of times and of N between the nodes that the last Legendre coefficients tell of, the larger one, relative to
+/// the duration and the largest N.
 double LayerCrossing::unresolved() const {
   double error = 0.0;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
-    Octet before_last = 0.0, last = 0.0, mean = 0.0;
+    std::array<Octet, 2> pace{}, force{};
+    Octet duration = 0.0;
     for (std::size_t i = 0; i < table_->octets(); ++i) {
-      before_last += table_->last[0][i] * pace_[i];
-      last += table_->last[1][i] * pace_[i];
-      mean += table_->weight[i] * pace_[i];
+      for (std::size_t k = 0; k < 2; ++k) {
+        pace[k] += table_->last[k][i] * pace_[i];
+        force[k] += table_->last[k][i] * normal_force_[i];
+      }
+      duration += table_->weight[i] * pace_[i];
     }
-    error = (std::abs(sum(before_last)) + std::abs(sum(last))) / (static_cast<double>(table_->count) * sum(mean));
+    const auto size = [](const std::array<Octet, 2>& last) { return std::abs(sum(last[0])) + std::abs(sum(last[1])); };
+    const double of_times = size(pace) / (static_cast<double>(table_->count) * sum(duration));
+    error = std::max(of_times, size(force) / most_force_);
   });
   return error;
 }
 
-/// The end, by the quadrature of the nodes, and the bounds.
-void LayerCrossing::finish() {
+/// The end, by the quadrature of the nodes, and the bounds. False where the part would be released before, or a kink or
+/// limit comes.
+bool LayerCrossing::finish() {
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { finish_widely(); });
+  return duration_ < longest_ && contact_at_place(1.0).normal_force > kLeastForce * most_force_;
 }
 
 VIBRATORY_ALIGNMENT_INLINE void LayerCrossing::finish_widely() {

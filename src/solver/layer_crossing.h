@@ -16,11 +16,11 @@ class LayerCrossing {
   /// `tolerance`: error of the velocities and of the duration, relative to them.
   LayerCrossing(const System& system, double tolerance);
 
-  /// Takes the part from `start` to where V leaves the layer; `contact`, at `site`, is the only one that is loaded.
-  /// False when V would turn within it, the part would be released, or nothing is gained, as for a stiff base.
-  /// Counts forces.
-  bool take(const State& start, const DriveForms& drives, const ContactStates& contacts, Site site,
-            SolverCounts& counts);
+  /// Takes the part from `start` to where V leaves the layer; of `contacts` that at `site` is the only one that is
+  /// loaded. False when V would turn within it, the part would be released, that takes `longest` or longer, or nothing
+  /// is gained, as for a stiff base. Counts forces, and what is thrown away.
+  [[gnu::noinline]] bool take(const State& start, const DriveForms& drives, const ContactStates& contacts, Site site,
+                              double longest, SolverCounts& counts);
 
   double duration() const { return duration_; }
   const State& end() const { return end_; }
@@ -56,13 +56,14 @@ class LayerCrossing {
 
   bool look_at_start(const ContactStates& contacts);
   bool place_nodes();
+  bool resolve(SolverCounts& counts);
   bool solve(SolverCounts& counts);
   bool guess();
   void evaluate();
   double integrate();
   bool passes();
   double unresolved() const;
-  void finish();
+  bool finish();
   void finish_widely();
 
   double slip_at(double place) const;
@@ -73,7 +74,7 @@ class LayerCrossing {
   ContactValues contact_at_place(double place) const;
 
   const System& system_;
-  double tolerance_;
+  double tolerance_, longest_ = 0.0;
   const GaussTable* table_;
 
   // the start
@@ -94,6 +95,7 @@ class LayerCrossing {
   // V = way eps (centre + kWidth sinh w), w = first + half (1 + place), -1 <= place <= 1. T has poles pi/2 eps from the
   // real axis of V, which the map leads away.
   static constexpr double kWidth = 1.5707963267948966;
+  static constexpr double kRounding = 4e-15;  ///< of a place, and of changes relative to what changes
   double centre_ = 0.0, first_ = 0.0, half_ = 0.0;
   double pace_at_start_ = 0.0;  ///< dt/dw
 

@@ -8,9 +8,6 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Rounding of a place.
-constexpr double kRounding = 4e-15;
-
 /// Iterations by which a time's place is found, and the largest N.
 constexpr int kPlaceIterations = 50, kForceIterations = 8;
 
@@ -52,6 +49,7 @@ double LayerCrossing::place_at(double t) const {
   double low = -1.0, high = 1.0, before = 0.0, after = duration_;
   for (std::size_t j = 0; j < table_->count; ++j) {
     const double time = of_node(time_, j), node = of_node(table_->node, j);
+    if (time == t) return node;
     if (time > t) {
       high = node;
       after = time;

@@ -276,8 +276,12 @@ void MethodChoice::book_implicit(double gain) {
 }
 
 void MethodChoice::ring() {
-  may_pass_over_ = false;
   if (implicit_) leave_to_series(kTrialAfter);
+  cross_layer();
+}
+
+void MethodChoice::cross_layer() {
+  may_pass_over_ = false;
   steps_alike_ = 0;
   last_way_ = 0.0;
 }

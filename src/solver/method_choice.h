@@ -77,6 +77,9 @@ class MethodChoice {
   /// The normal forces jump: the base rings.
   void ring();
 
+  /// The tanh layer has been crossed by neither method: there is no last step.
+  void cross_layer();
+
   /// Nothing touches any more.
   void leave_contact();
 

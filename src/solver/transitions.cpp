@@ -26,10 +26,10 @@ double slip_scale(const ContactKinematics& k, const Motions& motions) {
   return largest;
 }
 
-/// Rates gained: of a flight all of them, else what the acceleration of the segment's start makes.
+/// Rates gained: of what has no series all of them, else what the acceleration of the segment's start makes.
 State gain_of(const Segment& segment) {
   State gain;
-  if (segment.flight != nullptr) {
+  if (segment.flight != nullptr || segment.layer_crossing != nullptr) {
     gain.vx = segment.end.vx - segment.begin.vx;
     gain.vy = segment.end.vy - segment.begin.vy;
     gain.omega = segment.end.omega - segment.begin.omega;

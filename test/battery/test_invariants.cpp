@@ -32,15 +32,13 @@ class BatteryInvariants : public test::SolverBattery {
     const double f = scene.friction ? scene.friction->coefficient : 0.0;
     double largest = 0.0, most = 0.0;
     run(scene, [&](const Segment& g) {
-      for (int i = 0; i < g.loaded_count; ++i) {
-        const ContactSeries& contact = g.loaded[static_cast<std::size_t>(i)];
+      for (int i = 0; i < g.loaded_count; ++i)
         for (const double share : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-          const double n = value_at(contact.normal_force, g.order, share * g.duration);
-          const double t = value_at(contact.tangential_force, g.order, share * g.duration);
+          const ContactValues contact = contact_at(g, i, share * g.duration);
+          const double n = contact.normal_force;
           largest = std::max(largest, n);
-          most = std::max({most, -n, std::abs(t) - f * n});
+          most = std::max({most, -n, std::abs(contact.tangential_force) - f * n});
         }
-      }
     });
     return largest > 0.0 ? most / largest : 0.0;
   }

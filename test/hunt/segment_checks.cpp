@@ -50,6 +50,10 @@ double length_of(const System& s, const State& q) {
 
 /// Speeds that a rate is the difference of: those at `q` and those that the segment's series are sums of.
 double speed_of(const System& s, const Segment& g, const State& q) {
+  if (g.layer_crossing != nullptr) {
+    const auto most = [&](double State::*speed) { return std::abs(g.begin.*speed) + std::abs(g.end.*speed); };
+    return most(&State::vx) + most(&State::vy) + most(&State::omega) * length_of(s, q);
+  }
   const auto size = [&](const Series& v, double now) { return std::abs(now) + magnitude_at(v, g.order, g.duration); };
   return size(g.vx, q.vx) + size(g.vy, q.vy) + size(g.omega, q.omega) * length_of(s, q);
 }

@@ -12,7 +12,7 @@ class GaussTableOf : public testing::TestWithParam<std::size_t> {
  protected:
   const GaussTable& table_ = gauss_table(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(nodes, GaussTableOf, testing::Values(16, 24, 32, 40));
+INSTANTIATE_TEST_SUITE_P(nodes, GaussTableOf, testing::Values(16, 24, 32, 40, 48, 56));
 
 TEST_P(GaussTableOf, has_rising_nodes_within_the_interval) {
   ASSERT_EQ(table_.count, GetParam());
@@ -75,8 +75,8 @@ TEST(GaussTable, has_as_many_nodes_as_asked_for_at_least) {
   EXPECT_EQ(gauss_table(0).count, 16U);
   EXPECT_EQ(gauss_table(16).count, 16U);
   EXPECT_EQ(gauss_table(17).count, 24U);
-  EXPECT_EQ(gauss_table(40).count, 40U);
-  EXPECT_EQ(gauss_table(41).count, 40U);
+  EXPECT_EQ(gauss_table(56).count, 56U);
+  EXPECT_EQ(gauss_table(57).count, 56U);
 }
 
 }  // namespace

@@ -135,5 +135,22 @@ TEST(MotionLaws, hold_in_random_scenes) {
   }
 }
 
+// What a crossing of the tanh layer passes over would be seen: other contacts, ends of faces, kinks of the excitation.
+TEST(MotionLaws, hold_in_random_scenes_whose_layers_are_crossed) {
+#ifdef __SANITIZE_ADDRESS__
+  const unsigned last = 20;
+#else
+  const unsigned last = 150;
+#endif
+  for (unsigned seed = 1; seed <= last; ++seed) {
+    Scene scene = test::random_scene(seed);
+    scene.name = "seed " + std::to_string(seed) + " with layers";
+    test::cross_layers(scene);
+    const TrialResult result = test::checked_run(scene);
+    EXPECT_NE(result.outcome, Outcome::failed) << scene.name << ": " << result.failure;
+    EXPECT_LT(result.energy->residual, 1e-5) << scene.name;
+  }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

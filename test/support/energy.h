@@ -17,7 +17,7 @@ inline double energy(const Scene& s, const Segment& g) {
     e += 0.5 * s.gripper.phi.inertia * q.omega * q.omega +
          0.5 * s.gripper.phi.stiffness * std::pow(q.phi - s.gripper.anchor_phi, 2);
   for (int i = 0; i < g.loaded_count; ++i) {
-    const double d = value_at(g.loaded[static_cast<std::size_t>(i)].depth, g.order, g.duration);
+    const double d = contact_at(g, i, g.duration).depth;
     e += 0.5 * s.base.stiffness_y * d * d;
   }
   return e;

@@ -54,7 +54,9 @@ class MotionCheck {
     if (g.flight != nullptr || g.layer_crossing != nullptr)
       for (int i = 1; i < 60; ++i) check_laws(h * i / 60.0);
     check_laws(h);
-    expect(distance(g.end, state_at(g, h)) <= 1e-12 * size(g.end), "the end is not that of the series",
+    // a closed form corrects the series of a flight, in which events are sought to a hundredth of a step's tolerance
+    const double sought = g.loaded_count == 0 ? 1e-2 * tolerance_ : 0.0;
+    expect(distance(g.end, state_at(g, h)) <= (1e-12 + sought) * size(g.end), "the end is not that of the series",
            distance(g.end, state_at(g, h)));
     check_events();
     follow_recovery(h);
@@ -152,9 +154,9 @@ class MotionCheck {
   }
 
   /// What is cut off of a velocity (tolerance_ of its leading terms), seen in its derivative. Of a crossing of the tanh
-  /// layer: of its polynomials, whose degree is at most 40.
+  /// layer: of its polynomials, whose degree is at most 56.
   double cut_off(const Series& v) const {
-    if (g_->layer_crossing != nullptr) return 4.0 * 40.0 * tolerance_ * speed(g_->begin) / g_->duration;
+    if (g_->layer_crossing != nullptr) return 4.0 * 56.0 * tolerance_ * speed(g_->begin) / g_->duration;
     double lead = 0.0, power = 1.0;
     for (std::size_t k = 0; k < 4; ++k, power *= g_->duration) lead = std::max(lead, std::abs(v[k]) * power);
     return 4.0 * g_->order * tolerance_ * lead / g_->duration;

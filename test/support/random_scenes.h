@@ -61,4 +61,12 @@ inline Scene random_scene(unsigned seed) {
   return s;
 }
 
+/// Gives the scene a tanh law and a tolerance with which the solver `event` crosses its layer in one segment.
+inline void cross_layers(Scene& scene) {
+  if (!scene.friction) scene.friction.emplace();
+  if (scene.friction->coefficient == 0.0) scene.friction->coefficient = 0.2;
+  scene.friction->regularization = 2e-3;
+  scene.solver.tolerance = 1e-4;
+}
+
 }  // namespace vibratory_alignment::test
