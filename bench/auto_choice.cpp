@@ -240,9 +240,10 @@ void report_random_scenes(double tolerance) {
     const double ratio = ratio_of(measured);
     all.ratios.push_back(ratio);
     if (better(measured) > kLongTrial) longer.ratios.push_back(ratio);
+    if (!is_above(ratio)) continue;
     if (measured[2].usable())
       most_beyond = std::max(most_beyond, measured[2].least() - kAllowedRatio * better(measured));
-    if (is_above(ratio)) print_row("random scene " + std::to_string(seed), measured);
+    print_row("random scene " + std::to_string(seed), measured);
   }
   std::printf(
       "\n%zu of %zu random scenes above %.1f, by %.0f us at most; of the %zu that take longer than %g ms %zu, "
