@@ -1,6 +1,6 @@
-// Solvers `event`, `implicit` and `auto`: the hybrid step of docs/hybrid_step.md. Flight in closed form; contact under
-// error control by power series of high order, by implicit steps, or by whichever goes further for its cost; every
-// event located to roundoff as a root of the polynomials.
+// Solvers `event`, `implicit` and `auto`: the hybrid step of docs/hybrid_step.md. Flight in closed form; the tanh layer
+// in one step across it; other contact under error control by power series of high order, by implicit steps, or by
+// whichever goes further for its cost; every event located to roundoff as a root of the polynomials.
 #pragma once
 
 #include <optional>
