@@ -197,7 +197,8 @@ int run_accuracy(const AccuracyCommandOptions& options) {
   print_heading(out, scene, *reference);
   for (const AccuracyRun& run : runs) print_row(out, scene, run);
   print_advice(out, scene, runs, *reference);
-  if (std::fflush(out) != 0 || std::ferror(out) != 0) throw OutputError(out == stdout ? "stdout" : "stderr", "the table is lost");
+  if (std::fflush(out) != 0 || std::ferror(out) != 0)
+    throw OutputError(out == stdout ? "stdout" : "stderr", "the table is lost");
   if (csv) {
     write_csv(csv->temporary(), csv->path(), scene, runs, *reference);
     csv->commit();

@@ -66,6 +66,13 @@ VIBRATORY_ALIGNMENT_INLINE ContactOctet contact_octet(const System& system, cons
           v.x * t.x + v.y * t.y};
 }
 
+/// N = k d + h d', not cut off at zero.
+VIBRATORY_ALIGNMENT_INLINE Octet normal_force_of(const System& system, const ContactOctet& contact, Face face,
+                                                 const Octet& c, const Octet& s) {
+  return along_normal(face, c, s, system.stiffness_x, system.stiffness_y) * contact.depth +
+         along_normal(face, c, s, system.damping_x, system.damping_y) * contact.depth_rate;
+}
+
 /// V' that the velocities alone cause.
 VIBRATORY_ALIGNMENT_INLINE Octet slip_rate_of(const StateOctet& q, const ContactOctet& contact, Face face) {
   const Vec2Octet &t = contact.tangent, &lever = contact.lever;

@@ -34,8 +34,7 @@ VIBRATORY_ALIGNMENT_INLINE int evaluate(const NormalForcesOctet& acting, const S
     forces.site[index] = site;
     force.depth = at.depth;
     force.slip_velocity = at.slip_velocity;
-    force.normal_force = along_normal(contact.face, c, s, system.stiffness_x, system.stiffness_y) * at.depth +
-                         along_normal(contact.face, c, s, system.damping_x, system.damping_y) * at.depth_rate;
+    force.normal_force = normal_force_of(system, at, contact.face, c, s);
     Octet ratio = 0.0;
     switch (contact.slip) {
       case Slip::plus: ratio = -friction; break;

@@ -42,6 +42,9 @@ struct System {
   State start;
 };
 
+/// True with the tanh law of friction.
+inline bool has_layer(const System& system) { return system.friction > 0.0 && system.regularization > 0.0; }
+
 /// Resolves a scene. Throws SceneError (source: the scene's name) when pressing_force is given but nothing can be
 /// touched from above (no y_touch), or when a start asked for as equilibrium does not exist.
 System make_system(const Scene& scene);

@@ -44,34 +44,15 @@ class Search {
  public:
   Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries,
          const DriveForms& drives, FoundEvents& found)
-      : system_(system),
-        series_(series),
-        segment_(segment),
-        pins_(pins),
-        recoveries_(recoveries),
-        drives_(drives),
-        order_(segment.order),
-        duration_(segment.duration),
-        cos_phi_(segment.cos_phi[0]),
-        sin_phi_(segment.sin_phi[0]),
-        found_(found) {
+      : Search(system, series, segment, segment.duration, {segment.cos_phi[0], segment.sin_phi[0]}, pins, recoveries,
+               drives, found) {
     bound_motion();
   }
 
   /// For only_forces_act(), of a segment that has no series.
   Search(const System& system, MotionSeries& series, Segment& segment, const MotionBounds& motion, const Pins& pins,
          const Recoveries& recoveries, const DriveForms& drives, FoundEvents& found)
-      : system_(system),
-        series_(series),
-        segment_(segment),
-        pins_(pins),
-        recoveries_(recoveries),
-        drives_(drives),
-        order_(0),
-        duration_(motion.duration),
-        cos_phi_(tilt_of(segment.begin.phi).cos),
-        sin_phi_(tilt_of(segment.begin.phi).sin),
-        found_(found) {
+      : Search(system, series, segment, motion.duration, tilt_of(segment.begin.phi), pins, recoveries, drives, found) {
     set_bounds(motion.acceleration);
   }
 
@@ -107,6 +88,19 @@ class Search {
   }
 
  private:
+  Search(const System& system, MotionSeries& series, Segment& segment, double duration, const Tilt& start,
+         const Pins& pins, const Recoveries& recoveries, const DriveForms& drives, FoundEvents& found)
+      : system_(system),
+        series_(series),
+        segment_(segment),
+        pins_(pins),
+        recoveries_(recoveries),
+        drives_(drives),
+        order_(segment.order),
+        duration_(duration),
+        start_(start),
+        found_(found) {}
+
   void offer(double time, EventKind kind, Site site, Face face = Face::none) {
     if (time == kNoRoot) return;
     const double slack = kCoincidence * time;
@@ -130,7 +124,7 @@ class Search {
     return true;
   }
 
-  Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site, cos_phi_, sin_phi_); }
+  Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site, start_.cos, start_.sin); }
 
   /// Largest speeds of the axes during the segment, and accelerations that bound how far from their tangents they go.
   void bound_motion() {
@@ -194,7 +188,7 @@ class Search {
     double reach = 0.0;
     if (is_edge(site)) {
       // (u, w)' = -(v.e1, v.e2) + omega (w, -u)
-      const double c = cos_phi_, s = sin_phi_;
+      const double c = start_.cos, s = start_.sin;
       bound.rate = {-(vx * c + vy * s) + omega * bound.p.y, vx * s - vy * c - omega * bound.p.x};
       reach = std::abs(bound.p.x) + std::abs(bound.p.y) + speed_ * duration_;
     } else {
@@ -527,7 +521,7 @@ class Search {
   const DriveForms& drives_;
   int order_;
   double duration_;
-  double cos_phi_, sin_phi_;      ///< at the start
+  Tilt start_;                    ///< cos and sin of the tilt at the start
   double found_at_forces_ = 0.0;  ///< time of the first event of normal forces and friction, if there is one
   double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
   std::optional<SeriesNoise> noise_;  ///< once it has been asked for

@@ -140,8 +140,8 @@ EventSolver::EventSolver(const System& system, const std::vector<Excitation>& ex
     collocation();  // made now, not in the first step
     implicit_.emplace(system_, std::max(kImplicitShare * tolerance, kSmallestTolerance));
   }
-  const bool has_layer = system_.friction > 0.0 && system_.regularization > 0.0 && !system_.recovery;
-  if (has_layer && (method_ == ContactMethod::series || method_ == ContactMethod::automatic))
+  if (has_layer(system_) && !system_.recovery &&
+      (method_ == ContactMethod::series || method_ == ContactMethod::automatic))
     layer_crossing_.emplace(system_, tolerance_);
   if (excitations.size() > DriveForms::kMax)
     throw std::invalid_argument("at most " + std::to_string(DriveForms::kMax) + " excitations are simulated");

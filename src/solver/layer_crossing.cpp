@@ -115,8 +115,8 @@ bool LayerCrossing::look_at_start(const ContactStates& contacts) {
   const ContactPoint contact = contact_point(system_, placed, site_, face_, site_point(system_, placed, site_));
   const Vec2 &n = contact.normal, &t = contact.tangent;
   const double normal_lever = contact.normal_lever(), tangent_lever = contact.tangent_lever();
-  const auto along = [&](const Vec2& way, double lever, double ax, double ay, double alpha) {
-    return way.x * ax + way.y * ay + lever * alpha;
+  const auto along = [](const Vec2& axis, double lever, double ax, double ay, double alpha) {
+    return axis.x * ax + axis.y * ay + lever * alpha;
   };
   const auto effect_of = [&](const Vec2& force, double lever) {
     const double ax = system_.x.inverse_inertia * force.x, ay = system_.y.inverse_inertia * force.y,
@@ -232,8 +232,7 @@ void LayerCrossing::evaluate() {
       tilts_of(q.phi, c, s);
       const ContactOctet contact = contact_octet(system_, q, site_, face_, c, s);
       const Vec2Octet &n = contact.normal, &t = contact.tangent;
-      const Octet normal_force = along_normal(face_, c, s, system_.stiffness_x, system_.stiffness_y) * contact.depth +
-                                 along_normal(face_, c, s, system_.damping_x, system_.damping_y) * contact.depth_rate;
+      const Octet normal_force = normal_force_of(system_, contact, face_, c, s);
       const Octet tangential_force = -friction * tanh_[i] * normal_force;
       const Vec2Octet force = {normal_force * n.x + tangential_force * t.x,
                                normal_force * n.y + tangential_force * t.y};
@@ -336,32 +335,30 @@ double LayerCrossing::unresolved() const {
 /// The end, by the quadrature of the nodes, and the bounds. False where the part would be released before, or a kink or
 /// limit comes.
 bool LayerCrossing::finish() {
-  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { finish_widely(); });
+  run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+    Octet time = 0.0, vx = 0.0, vy = 0.0, omega = 0.0, x = 0.0, y = 0.0, phi = 0.0, ax = 0.0, ay = 0.0, alpha = 0.0;
+    for (std::size_t i = 0; i < table_->octets(); ++i) {
+      const Octet pace = half_ * table_->weight[i] * pace_[i];
+      time += pace;
+      vx += pace * ax_[i];
+      vy += pace * ay_[i];
+      omega += pace * alpha_[i];
+      x += pace * states_[i].vx;
+      y += pace * states_[i].vy;
+      phi += pace * states_[i].omega;
+      ax = larger(ax, abs(ax_[i]));
+      ay = larger(ay, abs(ay_[i]));
+      alpha = larger(alpha, abs(alpha_[i]));
+    }
+    duration_ = sum(time);
+    end_ = {start_.x + sum(x),   start_.y + sum(y),   start_.phi + sum(phi),
+            start_.vx + sum(vx), start_.vy + sum(vy), start_.omega + sum(omega)};
+    most_normal_force_ = least_force_ + kBetween * (most_force_ - least_force_);
+    most_acceleration_ = {kBetween * std::max(largest(ax), std::abs(acceleration_at_start_.x)),
+                          kBetween * std::max(largest(ay), std::abs(acceleration_at_start_.y)),
+                          kBetween * std::max(largest(alpha), std::abs(acceleration_at_start_.phi))};
+  });
   return duration_ < longest_ && contact_at_place(1.0).normal_force > kLeastForce * most_force_;
-}
-
-VIBRATORY_ALIGNMENT_INLINE void LayerCrossing::finish_widely() {
-  Octet time = 0.0, vx = 0.0, vy = 0.0, omega = 0.0, x = 0.0, y = 0.0, phi = 0.0, ax = 0.0, ay = 0.0, alpha = 0.0;
-  for (std::size_t i = 0; i < table_->octets(); ++i) {
-    const Octet pace = half_ * table_->weight[i] * pace_[i];
-    time += pace;
-    vx += pace * ax_[i];
-    vy += pace * ay_[i];
-    omega += pace * alpha_[i];
-    x += pace * states_[i].vx;
-    y += pace * states_[i].vy;
-    phi += pace * states_[i].omega;
-    ax = larger(ax, abs(ax_[i]));
-    ay = larger(ay, abs(ay_[i]));
-    alpha = larger(alpha, abs(alpha_[i]));
-  }
-  duration_ = sum(time);
-  end_ = {start_.x + sum(x),   start_.y + sum(y),   start_.phi + sum(phi),
-          start_.vx + sum(vx), start_.vy + sum(vy), start_.omega + sum(omega)};
-  most_normal_force_ = least_force_ + kBetween * (most_force_ - least_force_);
-  most_acceleration_ = {kBetween * std::max(largest(ax), std::abs(acceleration_at_start_.x)),
-                        kBetween * std::max(largest(ay), std::abs(acceleration_at_start_.y)),
-                        kBetween * std::max(largest(alpha), std::abs(acceleration_at_start_.phi))};
 }
 
 }  // namespace vibratory_alignment

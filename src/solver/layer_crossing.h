@@ -64,7 +64,6 @@ class LayerCrossing {
   bool passes();
   double unresolved() const;
   bool finish();
-  void finish_widely();
 
   double slip_at(double place) const;
   Basis basis_at(double place) const;

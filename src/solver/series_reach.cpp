@@ -32,8 +32,6 @@ constexpr double kOuterShare = 0.1;
 /// Terms this large leave no room for those of higher powers; and for those of twice as high ones.
 constexpr double kLarge = 1e150, kLargeByFar = 1e100;
 
-bool has_layer(const System& system) { return system.friction > 0.0 && system.regularization > 0.0; }
-
 }  // namespace
 
 SeriesReach::SeriesReach(const System& system, double tolerance, double force_tolerance)
