@@ -150,6 +150,16 @@ def outline(axes, xs, ys, unreliable):
 DRAW = {"motion": draw_trial, "curves": draw_curves, "region": draw_region}
 
 
+def save(sheet, path, **options):
+    """Under its name there is what was there before, or the whole picture."""
+    part = path.with_name(path.name + ".part")
+    try:
+        sheet.savefig(part, format=path.suffix[1:], **options)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                                      usage=argparse.SUPPRESS)
@@ -160,8 +170,8 @@ def main():
         for figure in json.loads((folder / "figures.json").read_text()):
             sheet = DRAW[figure["kind"]](figure, read_rows(folder / (figure["name"] + ".csv")))
             set_title(sheet, figure["title"])
-            sheet.savefig(folder / (figure["name"] + ".svg"), metadata={"Date": None})
-            sheet.savefig(folder / (figure["name"] + ".png"), dpi=150)
+            save(sheet, folder / (figure["name"] + ".svg"), metadata={"Date": None})
+            save(sheet, folder / (figure["name"] + ".png"), dpi=150)
             plt.close(sheet)
     except (OSError, KeyError, ValueError) as error:
         sys.exit("plot_figures.py: %s: %s" % (folder, error))

@@ -1,13 +1,10 @@
 #include "cli/figure_files.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "cli/errors.h"
+#include "cli/whole_file.h"
 #include "model/number_text.h"
 #include "model/scaling.h"
 #include "study/trial_scenes.h"
@@ -27,24 +24,20 @@ const json kPanelsWithRate = {{"x"}, {"y"}, {"vx"}, {"vy"}, {"phi"}, {"omega"}, 
 
 class CsvFile {
  public:
-  CsvFile(const std::filesystem::path& path, const std::string& header) : path_(path), file_(path) {
-    file_ << header << '\n';
+  CsvFile(const std::filesystem::path& path, const std::string& header) : file_("--output", path.string()) {
+    file_.text() << header << '\n';
   }
 
   void line(const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i)
-      file_ << (i == 0 ? "" : ",") << (std::isnan(values[i]) ? "" : number_text(values[i]));
-    file_ << '\n';
+      file_.text() << (i == 0 ? "" : ",") << (std::isnan(values[i]) ? "" : number_text(values[i]));
+    file_.text() << '\n';
   }
 
-  void finish() {
-    file_.close();
-    if (!file_) throw OutputError(path_.string(), std::strerror(errno));
-  }
+  void finish() { file_.finish(); }
 
  private:
-  std::filesystem::path path_;
-  std::ofstream file_;
+  WholeFile file_;
 };
 
 /// Of the first trial of the study.
@@ -139,10 +132,9 @@ void write_figure_files(const std::filesystem::path& folder, const FactBook& boo
     }
     descriptions.push_back(description(figure));
   }
-  std::ofstream file(folder / "figures.json");
-  file << descriptions.dump(2) << '\n';
-  file.close();
-  if (!file) throw OutputError((folder / "figures.json").string(), std::strerror(errno));
+  WholeFile file("--output", (folder / "figures.json").string());
+  file.text() << descriptions.dump(2) << '\n';
+  file.finish();
 }
 
 }  // namespace vibratory_alignment

@@ -1,13 +1,11 @@
 #include "cli/reproduce_command.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -26,6 +24,7 @@
 #include "cli/script.h"
 #include "cli/set_option.h"
 #include "cli/suite_inputs.h"
+#include "cli/whole_file.h"
 #include "model/scene_loader.h"
 #include "study/fact_suite.h"
 #include "study/study_refusals.h"
@@ -115,11 +114,9 @@ void make_folder(const std::string& folder) {
     throw UsageError("--output: " + folder + ": cannot be made a folder" + (error ? ": " + error.message() : ""));
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw OutputError(path.string(), std::strerror(errno));
+void write(WholeFile& file, const std::string& text) {
+  file.text() << text;
+  file.finish();
 }
 
 /// Runs the studies. Throws std::runtime_error when a signal ended it.
@@ -148,6 +145,8 @@ int run_command(const ReproduceCommandOptions& options) {
   const InterruptGuard interrupt;
   Tables tables;
   std::map<std::string, Study> studies;
+  std::optional<WholeFile> markdown, json;
+  const std::filesystem::path folder = options.output;
   try {
     studies = studies_to_run(suite, run_options);
     for (const auto& [name, study] : studies) {
@@ -155,6 +154,8 @@ int run_command(const ReproduceCommandOptions& options) {
       refuse_without_scenes(study);
     }
     make_folder(options.output);
+    markdown.emplace("--output", (folder / "ledger.md").string());
+    json.emplace("--output", (folder / "ledger.json").string());
     tables = run(suite, run_options, interrupt);
   } catch (const SceneError& refusal) {
     throw UsageError(refusal.what());
@@ -164,9 +165,8 @@ int run_command(const ReproduceCommandOptions& options) {
     return 128 + interrupt.signal();
   }
   const std::vector<FactResult> results = judge_all(suite.book, tables, kResamples);
-  const std::filesystem::path folder = options.output;
-  write_text(folder / "ledger.md", ledger_markdown(suite.book, results));
-  write_text(folder / "ledger.json", ledger_json(suite.book, results));
+  write(*markdown, ledger_markdown(suite.book, results));
+  write(*json, ledger_json(suite.book, results));
   write_figure_files(folder, suite.book, studies, tables);
   // before the pictures, which may fail or be interrupted
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;

@@ -6,9 +6,11 @@ import json
 import os
 import re
 import signal
+import subprocess
+import sys
 import unittest
 
-from align_test_case import SMALL_SCENE, AlignTestCase
+from align_test_case import SMALL_SCENE, SOURCE_ROOT, AlignTestCase
 
 STUDY = """
 scene: small.yaml
@@ -189,6 +191,48 @@ figures:
                              environment={"PYTHONPATH": self.path("modules")})
         self.assertEqual(process.returncode, 1)
         self.assertIn("1 of 2 facts met", process.stdout)
+
+    def contents(self):
+        """Of the files that were written: name -> bytes."""
+        contents = {}
+        for name in os.listdir(self.path("out")):
+            with open(self.path("out/" + name), "rb") as file:
+                contents[name] = file.read()
+        return contents
+
+    def on_a_full_disk(self, *command):
+        """Runs it where files end at 1024 bytes."""
+        script = 'ulimit -f 1; trap "" XFSZ; exec "$@"'
+        return subprocess.run(["bash", "-c", script, "bash", *command], capture_output=True, text=True, timeout=120,
+                              cwd=self.directory)
+
+    def test_a_full_disk_spoils_no_file_that_is_there(self):
+        self.reproduce("--no-pictures")
+        before = self.contents()
+        self.assertGreater(len(before["motion.csv"]), 1024)
+        process = self.on_a_full_disk(self.align_path, "reproduce", "--facts", "facts.yaml", "--output", "out",
+                                      "--set", "base.damping.y=0.1")
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("out/motion.csv: cannot be written: File too large", process.stderr)
+        after = self.contents()
+        self.assertEqual(set(after), set(before))
+        self.assertEqual(after["motion.csv"], before["motion.csv"])
+
+    def test_a_full_disk_spoils_no_picture_that_is_there(self):
+        self.reproduce()
+        before = self.contents()
+        self.assertEqual(sum(name.endswith((".svg", ".png")) for name in before), 8)
+        process = self.on_a_full_disk(sys.executable, os.path.join(SOURCE_ROOT, "scripts", "plot_figures.py"), "out")
+        self.assertNotEqual(process.returncode, 0)
+        self.assertIn("File too large", process.stderr)
+        self.assertEqual(self.contents(), before)
+
+    def test_says_before_it_runs_what_cannot_be_written(self):
+        os.makedirs(self.path("out/ledger.json"))
+        process = self.reproduce("--no-pictures")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("--output: %s: cannot be written: Is a directory" % self.path("out/ledger.json"), process.stderr)
+        self.assertEqual(os.listdir(self.path("out")), ["ledger.json"])
 
     def test_refuses_what_it_does_not_know(self):
         for setting in ("gripper.pressing_force=0.3", "excitation.phase=nonsense"):

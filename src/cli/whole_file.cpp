@@ -1,0 +1,20 @@
+#include "cli/whole_file.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include "cli/errors.h"
+
+namespace vibratory_alignment {
+
+WholeFile::WholeFile(const std::string& option, const std::string& path)
+    : path_(option, path), file_(path_.temporary(), std::ios::binary) {}
+
+void WholeFile::finish() {
+  errno = 0;
+  file_.close();
+  if (!file_) throw OutputError(path_.path(), errno != 0 ? std::strerror(errno) : "not all of it was written");
+  path_.commit();
+}
+
+}  // namespace vibratory_alignment

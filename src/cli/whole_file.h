@@ -1,0 +1,26 @@
+// A text file of results that is written at once: under its name there is what was there before, or all of the new one.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "cli/output_path.h"
+
+namespace vibratory_alignment {
+
+class WholeFile {
+ public:
+  /// Throws UsageError that names `option`, the path and the reason when it cannot be written.
+  WholeFile(const std::string& option, const std::string& path);
+
+  std::ostream& text() { return file_; }
+
+  /// All of it has been written. Throws OutputError, for what went wrong before as well.
+  void finish();
+
+ private:
+  OutputPath path_;
+  std::ofstream file_;
+};
+
+}  // namespace vibratory_alignment
