@@ -97,12 +97,16 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
   return series_step_;
 }
 
-/// Longest part of a step over which the series of cos phi and sin phi hold. The last terms of a power series show what
-/// is cut off; where phi is the polynomial of an implicit step they are exact, and what is cut off is smaller than they
-/// are by the angle through which the part turns.
+/// Longest part of a step over which the series of cos phi and sin phi hold, and those of points that turn with them.
+/// The last terms of a power series show what is cut off; where phi is the polynomial of an implicit step they are
+/// exact, and what is cut off is smaller than they are by the angle through which the part turns and, of the points, by
+/// the way that it goes, beside its size.
 double EventSolver::direction_step(double step, double point_tolerance) {
-  const double turn = implicit_now_ ? std::abs(value_at(segment_.phi, segment_.order, step) - segment_.phi[0]) : 1.0;
-  const double tolerance = turn > point_tolerance ? point_tolerance / turn : 1.0;
+  const auto change = [&](const Series& q) { return std::abs(value_at(q, segment_.order, step) - q[0]); };
+  const double size = system_.half_width + system_.base_distance;
+  const double moved =
+      implicit_now_ ? change(segment_.phi) + (change(segment_.x) + change(segment_.y)) / size : 1.0;
+  const double tolerance = moved > point_tolerance ? point_tolerance / moved : 1.0;
   return pair_step(series_.direction(segment_), segment_.order, tolerance);
 }
 

@@ -357,6 +357,7 @@ bool ImplicitStep::retake(double h, Segment& segment, SolverCounts& counts) {
 void ImplicitStep::fill(double h, Segment& segment) {
   length_ = h;
   segment.order = kDegree;
+  segment.friction = system_.friction;
   segment.loaded_count = equations_.start_forces().count;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
     const double rate = 1.0 / h;

@@ -1,5 +1,7 @@
 #include "solver/segment.h"
 
+#include <algorithm>
+
 #include "solver/flight.h"
 #include "solver/layer_crossing.h"
 
@@ -37,8 +39,13 @@ ContactValues contact_at(const Segment& segment, int i, double t) {
   if (segment.layer_crossing != nullptr) return segment.layer_crossing->contact_at(t);
   const ContactSeries& contact = segment.loaded[static_cast<std::size_t>(i)];
   const int order = segment.order;
-  return {value_at(contact.depth, order, t), value_at(contact.normal_force, order, t),
-          value_at(contact.tangential_force, order, t), value_at(contact.slip_velocity, order, t)};
+  ContactValues values = {value_at(contact.depth, order, t), value_at(contact.normal_force, order, t),
+                          value_at(contact.tangential_force, order, t), value_at(contact.slip_velocity, order, t)};
+  if (segment.coarse && slip_of(segment, contact) == Slip::regularized) {
+    const double limit = segment.friction * std::max(values.normal_force, 0.0);
+    values.tangential_force = std::clamp(values.tangential_force, -limit, limit);
+  }
+  return values;
 }
 
 double largest_normal_force(const Segment& segment, int i, double from, double to) {

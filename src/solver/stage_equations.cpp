@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "mechanics/contact_frame.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -201,7 +203,14 @@ double StageEquations::allowed_from(const Segment& segment, double h) const {
 }
 
 double StageEquations::place_rounding(const Segment& segment) const {
-  return kRounding * size_of_place(segment.x[0], segment.y[0]);
+  double along_normal = 0.0;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const Site site = segment.loaded[i].site;
+    const Face face = segment.contacts[static_cast<std::size_t>(site)].face;
+    const Vec2 normal = contact_kinematics(system_, segment.begin, site, face).normal;
+    along_normal = std::max(along_normal, std::abs(normal.x * segment.begin.x) + std::abs(normal.y * segment.begin.y));
+  }
+  return kRounding * (along_normal + system_.half_width + system_.base_distance);
 }
 
 /// Forces at the stages, and what these leave of f - a where the acting normal forces change by as much as those of the

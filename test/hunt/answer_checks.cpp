@@ -24,11 +24,24 @@ double energy_terms(const Scene& scene, const EnergyLedger& e) {
   return std::abs(e.initial) + std::abs(e.final) + e.exchanged + std::abs(scene.weight * scene.part.base_distance);
 }
 
-double difference_of_places(const System& s, const Landmark& a, const Landmark& b) {
-  const State &p = a.state, &q = b.state;
-  const double size = std::abs(p.x) + std::abs(p.y) + s.half_width + s.base_distance;
+double size_of(const System& s, const State& q) {
+  return std::abs(q.x) + std::abs(q.y) + s.half_width + s.base_distance;
+}
+
+double speed_of(const System& s, const State& q) {
+  return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * (s.half_width + s.base_distance);
+}
+
+double difference_of_places(const System& s, const State& p, const State& q) {
   const double place = std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.phi - q.phi) * s.half_width});
-  return std::max(place / size, std::abs(a.time - b.time));
+  return place / size_of(s, p);
+}
+
+/// Of a time that is known by a place: as far as the part goes in it, beside its size, where that is less.
+double difference_of_times(const System& s, const Landmark& a, const Landmark& b, Compared compared) {
+  const double apart = std::abs(a.time - b.time);
+  if (compared == Compared::places_and_rates) return apart;
+  return apart * std::min(1.0, std::max(speed_of(s, a.state), speed_of(s, b.state)) / size_of(s, a.state));
 }
 
 double difference_of_rates(const System& s, double fastest, const State& p, const State& q) {
@@ -88,9 +101,11 @@ double difference(const System& system, const Trace& a, const Trace& b, Compared
   if (!refused && (a.touches.size() != b.touches.size() || a.all_touches != b.all_touches)) return INFINITY;
   const double fastest = std::max(a.fastest, b.fastest);
   const auto between = [&](const Landmark& p, const Landmark& q) {
-    const double place = difference_of_places(system, p, q);
-    return compared == Compared::places ? place
-                                        : std::max(place, difference_of_rates(system, fastest, p.state, q.state));
+    const double known_by_place =
+        std::max(difference_of_places(system, p.state, q.state), difference_of_times(system, p, q, compared));
+    return compared == Compared::places
+               ? known_by_place
+               : std::max(known_by_place, difference_of_rates(system, fastest, p.state, q.state));
   };
   double largest = 0.0;
   for (std::size_t i = 0; i < std::min(a.touches.size(), b.touches.size()); ++i)

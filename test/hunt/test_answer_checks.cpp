@@ -100,11 +100,27 @@ TEST_F(DoctoredAnswer, that_settles_at_another_time) {
   EXPECT_GT(difference(system_, trace_, other, Compared::places_and_rates), 0.01);
 }
 
+// A time says as little as the way that the part goes in it, but no less.
+TEST_F(DoctoredAnswer, that_touches_later_is_as_far_off_as_it_goes_until_then) {
+  Trace other = trace_;
+  State& there = other.touches.front().state;
+  other.touches.front().time += 0.1;
+  EXPECT_DOUBLE_EQ(difference(system_, trace_, other, Compared::places_and_rates), 0.1);
+  const double size = std::abs(there.x) + std::abs(there.y) + system_.half_width + system_.base_distance;
+  there.vx = 0.0;
+  there.vy = -2e-3 * size;
+  there.omega = 0.0;
+  trace_.touches.front().state = there;
+  EXPECT_NEAR(difference(system_, trace_, other, Compared::places), 2e-4, 1e-18);
+  there.vy = -20.0 * size;
+  EXPECT_DOUBLE_EQ(difference(system_, trace_, other, Compared::places), 0.1);
+}
+
 // Touches at once count as one only where that is asked for.
 TEST_F(DoctoredAnswer, whose_touches_are_merged_tells_no_more_of_them_than_there_are) {
-  EXPECT_EQ(run_trial(scene_, false, true).touches.size(), trace_.touches.size());
+  EXPECT_EQ(run_trial(scene_, false, 1.0).touches.size(), trace_.touches.size());
   const Scene repeated = random_scene(2410, Range::ordinary);
-  EXPECT_LT(run_trial(repeated, false, true).touches.size(), run_trial(repeated, false, false).touches.size());
+  EXPECT_LT(run_trial(repeated, false, 1.0).touches.size(), run_trial(repeated, false, 0.0).touches.size());
 }
 
 }  // namespace

@@ -140,13 +140,32 @@ TEST(Judge, counts_no_touch_after_a_hop_below_the_tolerance) {
   Scene scene = load_scene_file(MENDED_FAULTS "/hop_below_the_tolerance.yaml");
   EXPECT_TRUE(judge(scene, Range::ordinary).faults.empty());
   const System system = make_system(scene);
-  const Trace merged = run_trial(scene, false, true), whole = run_trial(scene, false, false);
+  const Trace merged = run_trial(scene, false, 1.0), whole = run_trial(scene, false, 0.0);
   scene.solver.name = "event";
-  const Trace expected = run_trial(scene, false, true), whole_expected = run_trial(scene, false, false);
+  const Trace expected = run_trial(scene, false, 1.0), whole_expected = run_trial(scene, false, 0.0);
   EXPECT_LT(difference(system, merged, expected, Compared::places), 1e-6);
   EXPECT_EQ(difference(system, whole, whole_expected, Compared::places), INFINITY);
   // hops that are higher count
   EXPECT_EQ(merged.touches.size(), kMaxTouches);
+}
+
+// The part comes level: which corner touches first, and 1e-11 earlier than the other one, is rounding.
+TEST(Judge, counts_touches_of_a_level_part_as_one) {
+  Scene scene = load_scene_file(MENDED_FAULTS "/level_landing.yaml");
+  scene.solver.name = "event";
+  EXPECT_EQ(run_trial(scene, false, 0.0).touches.size(), 2u);
+  EXPECT_EQ(run_trial(scene, false, 1.0).touches.size(), 1u);
+  scene.initial.phi = 1e-5;  // not so level
+  EXPECT_EQ(run_trial(scene, false, 0.0).touches.size(), run_trial(scene, false, 1.0).touches.size());
+}
+
+// Of a base that is still deformed the hop is measured from there: the part is 3e-5 away when it comes back.
+TEST(Judge, measures_a_hop_from_the_deformed_base) {
+  Scene scene = load_scene_file(MENDED_FAULTS "/hop_from_a_deformed_base.yaml");
+  for (const char* solver : {"event", "implicit"}) {
+    scene.solver.name = solver;
+    EXPECT_EQ(run_trial(scene, false, 10.0).touches.size(), 4u) << solver;
+  }
 }
 
 TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {

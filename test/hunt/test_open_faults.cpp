@@ -1,4 +1,5 @@
-// The scenes of open/, whose faults are known (README.md "Open faults"): they are no worse than their first lines say.
+// The scenes of open/, if there are any, whose faults are known (README.md "Open faults"): they are no worse than their
+// first lines say.
 // Those of mended/ break nothing any more.
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ bool is_invariant(const std::string& word) {
 }
 
 TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
-  int seen = 0;
+  if (!std::filesystem::exists(OPEN_FAULTS)) GTEST_SKIP() << "no fault is open";
   for (const auto& entry : std::filesystem::directory_iterator(OPEN_FAULTS)) {
     const std::string known = known_fault(entry.path()), name = entry.path().stem();
     ASSERT_FALSE(known.empty()) << name;
@@ -41,9 +42,7 @@ TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
     }
     for (const Fault& fault : verdict.faults)
       EXPECT_EQ(to_string(fault.invariant), known) << name << ": " << fault.detail;
-    ++seen;
   }
-  EXPECT_GT(seen, 0);
 }
 
 TEST(MendedFaults, break_nothing_any_more) {

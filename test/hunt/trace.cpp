@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "../support/touch_point.h"
 #include "mechanics/system.h"
 #include "segment_checks.h"
+#include "solver/base_recovery.h"
 #include "trial/make_solver.h"
 #include "trial/sampler.h"
 #include "trial/simulation.h"
@@ -54,12 +56,17 @@ class Hops {
     double height = 0.0;
   };
 
-  /// Largest distance of the point from the face during the segment.
+  /// Largest distance of the point from the face, or from what the base is still deformed by, during the segment.
   double distance(const Segment& segment, Site site, Face face) const {
+    const Recovery& base = segment.recoveries[static_cast<std::size_t>(site)];
+    std::optional<Relaxation> relaxation;
+    if (system_.recovery && base.face == face && base.deformation > 0.0) relaxation.emplace(system_, segment, base);
     double most = 0.0;
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-      const State q = share < 1.0 ? state_at(segment, share * segment.duration) : segment.end;
-      most = std::max(most, -test::touch_point(system_, q, {site, face}).depth);
+      const double t = share * segment.duration;
+      const State q = share < 1.0 ? state_at(segment, t) : segment.end;
+      const double deformation = relaxation ? relaxation->deformation_at(t) : 0.0;
+      most = std::max(most, deformation - test::touch_point(system_, q, {site, face}).depth);
     }
     return most;
   }
@@ -92,26 +99,25 @@ bool takes_implicit_steps(const Scene& scene) {
   return name == "implicit" || name == kImplicitAlone || name == "auto";
 }
 
-Trace run_trial(const Scene& scene, bool checked, bool merges) {
+Trace run_trial(const Scene& scene, bool checked, double uncertain) {
   Trace trace;
   Simulation simulation(scene);
   const System system = make_system(scene);
-  const double lowest_hop = scene.solver.tolerance * (scene.part.half_width + scene.part.base_distance);
+  const double size = system.half_width + system.base_distance, unseen = uncertain * scene.solver.tolerance * size;
   Hops hops(system);
   while (simulation.advance()) {
     const Segment& segment = simulation.segment();
-    if (merges) hops.follow(segment);
+    if (uncertain > 0.0) hops.follow(segment);
     trace.energy_noise += energy_noise(system, segment);
-    for (const State& q : {segment.begin, segment.end}) {
-      const double turn = std::abs(q.omega) * (system.half_width + system.base_distance);
-      trace.fastest = std::max(trace.fastest, std::abs(q.vx) + std::abs(q.vy) + turn);
-    }
+    const auto speed = [size](const State& q) { return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * size; };
+    for (const State& q : {segment.begin, segment.end}) trace.fastest = std::max(trace.fastest, speed(q));
     if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
     if (!ends_with_touch(segment)) continue;
-    // a point that an implicit step has left beside its face may touch several times at once, and the ring that such
-    // steps leave makes or spares a hop lower than the tolerance
+    // a point that an implicit step has left beside its face may touch several times at once, a part that comes level
+    // touches with two points in the order of rounding, and the ring that such steps leave makes or spares low hops
     const double since = trace.touches.empty() ? INFINITY : segment.end_time() - trace.touches.back().time;
-    if (merges && (since <= kSameTime || hops.end_below(lowest_hop, segment))) continue;
+    const bool at_once = since <= kSameTime || since * speed(segment.end) <= unseen;
+    if (uncertain > 0.0 && (at_once || hops.end_below(unseen, segment))) continue;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
   }

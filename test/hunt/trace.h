@@ -32,11 +32,12 @@ constexpr std::size_t kMaxTouches = 5;
 /// True with the solvers whose steps leave errors up to the tolerance.
 bool takes_implicit_steps(const Scene& scene);
 
-/// Runs the trial; `checked`: every segment is held against the invariants; `merges`: touches at once count as one, and
-/// those after a hop lower than the tolerance not at all.
-Trace run_trial(const Scene& scene, bool checked, bool merges);
+/// Runs the trial; `checked`: every segment is held against the invariants. `uncertain` > 0: what is shorter or lower
+/// than so many tolerances, times the part's size, is not seen: touches between which the part goes no farther count as
+/// one, those after such a hop not at all.
+Trace run_trial(const Scene& scene, bool checked, double uncertain);
 inline Trace run_trial(const Scene& scene, bool checked) {
-  return run_trial(scene, checked, takes_implicit_steps(scene));
+  return run_trial(scene, checked, takes_implicit_steps(scene) ? 1.0 : 0.0);
 }
 
 /// Runs the trial while it is sampled at this interval, with or without its events.
