@@ -419,10 +419,10 @@ class Search {
                               system_.base_distance + system_.slot_half_width);
   }
 
-  /// True for a point that is still inside a base which is said to have recovered at once, and which it leaves faster
-  /// than the base can follow.
+  /// True for a point that is said to be outside, but is inside a base which it leaves faster than that can follow: one
+  /// that has recovered at once, or by rounding.
   bool is_left_behind(Site site, Face face) const {
-    if (!system_.recovery || !is_called_for(system_, face)) return false;
+    if (!is_called_for(system_, face)) return false;
     const PlacedState placed(segment_.begin);
     return contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() < 0.0;
   }

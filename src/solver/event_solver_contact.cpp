@@ -104,8 +104,7 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
 double EventSolver::direction_step(double step, double point_tolerance) {
   const auto change = [&](const Series& q) { return std::abs(value_at(q, segment_.order, step) - q[0]); };
   const double size = system_.half_width + system_.base_distance;
-  const double moved =
-      implicit_now_ ? change(segment_.phi) + (change(segment_.x) + change(segment_.y)) / size : 1.0;
+  const double moved = implicit_now_ ? change(segment_.phi) + (change(segment_.x) + change(segment_.y)) / size : 1.0;
   const double tolerance = moved > point_tolerance ? point_tolerance / moved : 1.0;
   return pair_step(series_.direction(segment_), segment_.order, tolerance);
 }

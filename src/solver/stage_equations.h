@@ -49,8 +49,8 @@ class StageEquations {
   /// Size of an acceleration or a velocity, as one of the part's points.
   double size_of(const StageAxes& acceleration) const;
 
-  /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the depths
-  /// there.
+  /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the
+  /// depths there.
   double allowed_from(const Segment& segment, double h) const;
   double place_rounding(const Segment& segment) const;
 

@@ -49,11 +49,14 @@ TEST(MendedFaults, break_nothing_any_more) {
   int seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(MENDED_FAULTS)) {
     Scene scene = load_scene_file(entry.path());
-    for (const char* solver : {"implicit", "auto", kImplicitAlone}) {
+    const std::string found_with = scene.solver.name;
+    for (const char* solver : {"event", "implicit", "auto", kImplicitAlone}) {
       scene.solver.name = solver;
       const Verdict verdict = judge(scene, Range::wild);
       EXPECT_TRUE(verdict.has_start);
-      EXPECT_EQ(verdict.refusal, "") << entry.path() << " " << solver;
+      // others may take more steps than the hunt allows
+      const bool may_refuse = solver != found_with && verdict.refusal == "step limit";
+      EXPECT_TRUE(may_refuse || verdict.refusal.empty()) << entry.path() << " " << solver << ": " << verdict.refusal;
       for (const Fault& fault : verdict.faults)
         ADD_FAILURE() << entry.path() << " " << solver << ": " << to_string(fault.invariant) << ", " << fault.detail;
     }

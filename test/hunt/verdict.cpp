@@ -8,6 +8,7 @@
 #include "answer_checks.h"
 #include "dice.h"
 #include "mechanics/system.h"
+#include "model/number_text.h"
 #include "model/scene_loader.h"
 #include "trace.h"
 
@@ -17,14 +18,19 @@ namespace {
 /// Starts that are tried: enough of them to meet a decision that rounding makes, if there is one.
 constexpr int kNudges = 8;
 
+/// Steps of a moved start, beside those that the hunt allows.
+constexpr long kMoreSteps = 20;
+
 /// A trial that makes this of its last digits says nothing of its mirror image, in which another touch may come or go.
 constexpr double kChaos = 1e-5;
 
 /// What is seen in one method's answer and not in the other's may be so many tolerances long or high.
 constexpr double kUncertain = 10.0;
 
-/// The start moved in its last digits, or by what the solver's tolerance cuts off; `part` of it, from -1 to 1.
+/// The start moved in its last digits, or by what the solver's tolerance cuts off; `part` of it, from -1 to 1. It may
+/// take more steps: a trial that is refused says nothing of how far its end has moved.
 Scene nudged(Scene s, double part) {
+  s.solver.step_limit *= kMoreSteps;
   const double share = part * (1e-13 + 1e-2 * s.solver.tolerance);
   s.initial.x += share * (std::abs(s.initial.x) + s.part.half_width);
   if (s.initial.y) *s.initial.y += share * (std::abs(*s.initial.y) + s.part.base_distance);
@@ -63,7 +69,7 @@ void compare(const Scene& scene, const System& system, const Pair& pair, Verdict
   if (own > kChaos || apart <= 100.0 * own)
     verdict.sensitive = true;
   else
-    verdict.faults.push_back({pair.invariant, "difference = " + std::to_string(apart)});
+    verdict.faults.push_back({pair.invariant, "difference = " + number_text(rounded(apart, 3))});
 }
 
 void compare_with_mirror_image(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
