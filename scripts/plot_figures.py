@@ -152,10 +152,11 @@ DRAW = {"motion": draw_trial, "curves": draw_curves, "region": draw_region}
 
 def save(sheet, path, **options):
     """Under its name there is what was there before, or the whole picture."""
-    part = path.with_name(path.name + ".part")
+    target = path.resolve()
+    part = target.with_name("%s.%d.part" % (target.name, os.getpid()))
     try:
         sheet.savefig(part, format=path.suffix[1:], **options)
-        part.replace(path)
+        part.replace(target)
     finally:
         part.unlink(missing_ok=True)
 

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -18,6 +17,7 @@
 #include "cli/figure_files.h"
 #include "cli/interrupt.h"
 #include "cli/ledger_report.h"
+#include "cli/output_path.h"
 #include "cli/output_roles.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
@@ -95,8 +95,8 @@ FactSuite load(const ReproduceCommandOptions& options) {
   }
 }
 
-/// Throws UsageError for a folder in which a file of the suite would be overwritten.
-void check_outputs(const ReproduceCommandOptions& options, const FactSuite& suite) {
+/// The files that are to be written.
+std::vector<NamedFile> outputs_of(const ReproduceCommandOptions& options, const FactSuite& suite) {
   const std::filesystem::path folder = options.output;
   std::vector<NamedFile> outputs;
   for (const char* name : {"ledger.md", "ledger.json", "figures.json"})
@@ -104,7 +104,7 @@ void check_outputs(const ReproduceCommandOptions& options, const FactSuite& suit
   for (const Figure& figure : suite.book.figures)
     for (const char* ending : {".csv", ".svg", ".png"})
       outputs.push_back({"figure " + figure.name, (folder / (figure.name + ending)).string()});
-  refuse_overwriting(suite_inputs(suite), outputs);
+  return outputs;
 }
 
 void make_folder(const std::string& folder) {
@@ -114,7 +114,8 @@ void make_folder(const std::string& folder) {
     throw UsageError("--output: " + folder + ": cannot be made a folder" + (error ? ": " + error.message() : ""));
 }
 
-void write(WholeFile& file, const std::string& text) {
+void write(const std::filesystem::path& path, const std::string& text) {
+  WholeFile file("--output", path.string());
   file.text() << text;
   file.finish();
 }
@@ -137,7 +138,8 @@ Tables run(const FactSuite& suite, FactRunOptions& run_options, const InterruptG
 
 int run_command(const ReproduceCommandOptions& options) {
   const FactSuite suite = load(options);
-  check_outputs(options, suite);
+  const std::vector<NamedFile> outputs = outputs_of(options, suite);
+  refuse_overwriting(suite_inputs(suite), outputs);
   FactRunOptions run_options;
   run_options.settings.all = options.settings;
   if (options.quick) run_options.thinning = kQuick;
@@ -145,8 +147,6 @@ int run_command(const ReproduceCommandOptions& options) {
   const InterruptGuard interrupt;
   Tables tables;
   std::map<std::string, Study> studies;
-  std::optional<WholeFile> markdown, json;
-  const std::filesystem::path folder = options.output;
   try {
     studies = studies_to_run(suite, run_options);
     for (const auto& [name, study] : studies) {
@@ -154,8 +154,7 @@ int run_command(const ReproduceCommandOptions& options) {
       refuse_without_scenes(study);
     }
     make_folder(options.output);
-    markdown.emplace("--output", (folder / "ledger.md").string());
-    json.emplace("--output", (folder / "ledger.json").string());
+    for (const NamedFile& output : outputs) OutputPath("--output", output.path);  // refused before anything runs
     tables = run(suite, run_options, interrupt);
   } catch (const SceneError& refusal) {
     throw UsageError(refusal.what());
@@ -165,8 +164,9 @@ int run_command(const ReproduceCommandOptions& options) {
     return 128 + interrupt.signal();
   }
   const std::vector<FactResult> results = judge_all(suite.book, tables, kResamples);
-  write(*markdown, ledger_markdown(suite.book, results));
-  write(*json, ledger_json(suite.book, results));
+  const std::filesystem::path folder = options.output;
+  write(folder / "ledger.md", ledger_markdown(suite.book, results));
+  write(folder / "ledger.json", ledger_json(suite.book, results));
   write_figure_files(folder, suite.book, studies, tables);
   // before the pictures, which may fail or be interrupted
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;

@@ -2,13 +2,27 @@
 
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 #include "cli/errors.h"
 
 namespace vibratory_alignment {
 
+namespace {
+
+/// By now something has run.
+OutputPath output_path(const std::string& option, const std::string& path) {
+  try {
+    return OutputPath(option, path);
+  } catch (const UsageError& refusal) {
+    throw std::runtime_error(refusal.what());
+  }
+}
+
+}  // namespace
+
 WholeFile::WholeFile(const std::string& option, const std::string& path)
-    : path_(option, path), file_(path_.temporary(), std::ios::binary) {}
+    : path_(output_path(option, path)), file_(path_.temporary(), std::ios::binary) {}
 
 void WholeFile::finish() {
   errno = 0;

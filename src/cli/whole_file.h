@@ -1,4 +1,4 @@
-// A text file of results that is written at once: under its name there is what was there before, or all of the new one.
+// A text file of results: under its name there is what was there before, or all of the new one.
 #pragma once
 
 #include <fstream>
@@ -10,7 +10,7 @@ namespace vibratory_alignment {
 
 class WholeFile {
  public:
-  /// Throws UsageError that names `option`, the path and the reason when it cannot be written.
+  /// Throws std::runtime_error that names `option`, the path and the reason when it cannot be written.
   WholeFile(const std::string& option, const std::string& path);
 
   std::ostream& text() { return file_; }

@@ -24,8 +24,8 @@ constexpr double kSlipRounding = 1e-13;
 /// relative to that of the part.
 constexpr double kSurelySliding = 1e-8;
 
-/// Rounding of a length relative to those that it is made of.
-constexpr double kLengthRounding = 3e-16;
+/// Rounding of a length relative to those that it is made of; and how many times as much that of steps adds up to.
+constexpr double kLengthRounding = 3e-16, kAddedUp = 1e3;
 
 /// Times are compared with that of what has been found only up to rounding.
 constexpr double kSurelyLater = 1.0 + 1e-12;
@@ -419,12 +419,26 @@ class Search {
                               system_.base_distance + system_.slot_half_width);
   }
 
-  /// True for a point that is said to be outside, but is inside a base which it leaves faster than that can follow: one
-  /// that has recovered at once, or by rounding.
+  /// True when a base could push nothing on a point that is inside it: the point leaves faster than the base follows.
   bool is_left_behind(Site site, Face face) const {
     if (!is_called_for(system_, face)) return false;
     const PlacedState placed(segment_.begin);
     return contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() < 0.0;
+  }
+
+  /// Of a point that is said to be outside, but is inside from the start by the conditions of `region`, of which `last`
+  /// became true last: those that it is leaving by last digits that have added up, and the last one if it leaves a base
+  /// that has recovered at once, count as zero. True if there are any.
+  bool counts_as_leaving(Site site, const Region& region, int last, double rounding, Conditions& conditions) const {
+    bool any = false;
+    for (int j = 0; j < region.count; ++j) {
+      if (conditions.zeros_at_start[j] > 0 || !(conditions.g[j][1] < 0.0)) continue;
+      const bool by_last_digits = conditions.g[j][0] <= kAddedUp * rounding;
+      if (!by_last_digits && !(j == last && is_left_behind(site, region.conditions[j].face))) continue;
+      conditions.zeros_at_start[j] = 1;
+      any = true;
+    }
+    return any;
   }
 
   void guard_outside(Site site) {
@@ -447,10 +461,8 @@ class Search {
         conditions.zeros_at_start[j] = pinned || (at_start > 0.0 && at_start <= rounding) ? 1 : 0;
       }
       Entry entry = first_entry(conditions, order_, duration_);
-      if (entry.time == 0.0 && is_left_behind(site, region.conditions[entry.last].face)) {
-        conditions.zeros_at_start[entry.last] = 1;
+      if (entry.time == 0.0 && counts_as_leaving(site, region, entry.last, rounding, conditions))
         entry = first_entry(conditions, order_, duration_);
-      }
       if (entry.time == kNoRoot) continue;
       const Face face = region.conditions[entry.last].face;
       const bool touches = is_called_for(system_, face) && (face != Face::floor || over_floor(site, entry.time));

@@ -98,15 +98,20 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
 }
 
 /// Longest part of a step over which the series of cos phi and sin phi hold, and those of points that turn with them.
-/// The last terms of a power series show what is cut off; where phi is the polynomial of an implicit step they are
-/// exact, and what is cut off is smaller than they are by the angle through which the part turns and, of the points, by
-/// the way that it goes, beside its size.
+/// The last terms of a power series show what is cut off. Where phi is the polynomial of an implicit step they are
+/// exact, and what is cut off is smaller than they are by the sum of the terms, beyond the first, of the angle and, of
+/// the points, of the place beside the part's size.
 double EventSolver::direction_step(double step, double point_tolerance) {
-  const auto change = [&](const Series& q) { return std::abs(value_at(q, segment_.order, step) - q[0]); };
-  const double size = system_.half_width + system_.base_distance;
-  const double moved = implicit_now_ ? change(segment_.phi) + (change(segment_.x) + change(segment_.y)) / size : 1.0;
-  const double tolerance = moved > point_tolerance ? point_tolerance / moved : 1.0;
-  return pair_step(series_.direction(segment_), segment_.order, tolerance);
+  double terms = 1.0;
+  if (implicit_now_) {
+    const double per_size = 1.0 / (system_.half_width + system_.base_distance);
+    terms = 0.0;
+    for (int k = segment_.order; k > 0; --k)
+      terms =
+          (terms + std::abs(segment_.phi[k]) + per_size * (std::abs(segment_.x[k]) + std::abs(segment_.y[k]))) * step;
+  }
+  return pair_step(series_.direction(segment_), segment_.order,
+                   terms > point_tolerance ? point_tolerance / terms : 1.0);
 }
 
 /// One step in contact of at most `longest`, by the method that is due.

@@ -57,7 +57,7 @@ struct Segment {
   double duration = 0.0;
   int order = 0;          ///< highest power that the series hold
   bool coarse = false;    ///< made by an implicit step, which does not follow what is faster than it
-  double friction = 0.0;  ///< coarse: coefficient; between the nodes T in the tanh layer is kept within its limit
+  double friction = 0.0;  ///< its coefficient, of a coarse segment, which keeps T in the tanh layer within its limit
   const Flight* flight = nullptr;  ///< set: a leap in flight, in closed form instead of series (x ... drive_phi unused)
   double flight_time = 0.0;        ///< time from the start of the flight to the start of the segment
   /// Set: a crossing of the tanh layer by the only loaded contact, loaded[0], instead of series (all unused).

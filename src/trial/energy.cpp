@@ -129,17 +129,21 @@ void EnergyAccount::book_powers(const Segment& segment, const Relaxations& relax
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
     const ContactValues values = contact_at(segment, i, t);
     const double damping = damping_of(system_, face, tilt.cos, tilt.sin);
+    double depth = values.depth;
     if (damping > 0.0) {
       // of the velocities: the slope of a depth is its last digit over the length of the segment
       const Vec2 point = site_point(system_, s, contact.site, tilt.cos, tilt.sin);
-      const double rate = contact_kinematics(system_, s, contact.site, face, point, tilt.cos, tilt.sin).depth_rate;
-      // what an implicit step passes over shows in its velocities, but does not act
-      const double stiffness = stiffness_of(system_, face, tilt.cos, tilt.sin);
-      const double force = segment.coarse ? values.normal_force - stiffness * values.depth : damping * rate;
-      ledger_.base_loss += weight * force * rate;
+      const ContactKinematics k = contact_kinematics(system_, s, contact.site, face, point, tilt.cos, tilt.sin);
+      double force = damping * k.depth_rate;
+      if (segment.coarse) {
+        // what an implicit step passes over shows in its velocities, but does not act
+        depth = k.depth;
+        force = values.normal_force - stiffness_of(system_, face, tilt.cos, tilt.sin) * depth;
+      }
+      ledger_.base_loss += weight * force * k.depth_rate;
     }
     ledger_.friction_loss -= weight * values.tangential_force * values.slip_velocity;
-    if (!system_.isotropic) ledger_.turning += turning(face, values.depth);
+    if (!system_.isotropic) ledger_.turning += turning(face, depth);
   }
 }
 

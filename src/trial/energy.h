@@ -1,5 +1,6 @@
 // Energy ledger of a trial (MODEL.md "Energy ledger"), integrated over the segments by quadrature: an account of its
-// own that does not use the equations of motion, so that its residual judges them.
+// own that does not use the equations of motion, so that its residual judges them. Only of an implicit step it takes
+// the damper's force from the N that acts, for the velocities show what the step passes over (docs/implicit_steps.md).
 #pragma once
 
 #include <array>

@@ -228,11 +228,13 @@ figures:
         self.assertEqual(self.contents(), before)
 
     def test_says_before_it_runs_what_cannot_be_written(self):
-        os.makedirs(self.path("out/ledger.json"))
-        process = self.reproduce("--no-pictures")
-        self.assertEqual(process.returncode, 2)
-        self.assertIn("--output: %s: cannot be written: Is a directory" % self.path("out/ledger.json"), process.stderr)
-        self.assertEqual(os.listdir(self.path("out")), ["ledger.json"])
+        for name in ("ledger.json", "curve.csv", "motion.png", "figures.json"):
+            os.makedirs(self.path("out/" + name))
+            process = self.reproduce()
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("--output: %s: cannot be written: Is a directory" % self.path("out/" + name), process.stderr)
+            self.assertEqual(os.listdir(self.path("out")), [name])
+            os.rmdir(self.path("out/" + name))
 
     def test_refuses_what_it_does_not_know(self):
         for setting in ("gripper.pressing_force=0.3", "excitation.phase=nonsense"):

@@ -105,6 +105,19 @@ class SegmentCheck {
     return {};
   }
 
+  /// What is touched at the segment's end is touched at its surface.
+  std::optional<Fault> touches() {
+    t_ = segment_.duration;
+    state_ = segment_.end;
+    for (int i = 0; i < segment_.event_count; ++i) {
+      const Event& event = segment_.events[static_cast<std::size_t>(i)];
+      if (event.kind != EventKind::touch) continue;
+      const double depth = touch_point(system_, state_, {event.site, event.face}).depth - surface_of(event.site);
+      if (depth > depth_noise() + at_once()) return fault(Invariant::no_passing, "depth at a touch", depth);
+    }
+    return {};
+  }
+
  private:
   Fault fault(Invariant invariant, const char* what, double value) const {
     std::ostringstream text;
@@ -178,15 +191,22 @@ class SegmentCheck {
     return depth_inside(site, {Face::floor});
   }
 
+  /// Depth of the base's surface below a site's point, which has left it deformed.
+  double surface_of(Site site) const {
+    const Recovery& base = segment_.recoveries[static_cast<std::size_t>(site)];
+    return base.deformation > 0.0 ? Relaxation(system_, segment_, base).deformation_at(t_) : 0.0;
+  }
+
+  /// How far a base has not recovered yet that is taken to do so at once.
+  double at_once() const { return system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0; }
+
   /// A point that is said to be outside, is.
   std::optional<Fault> outside(Site site) const {
     const ContactState& contact = segment_.contacts[static_cast<std::size_t>(site)];
     if (contact.phase != Phase::outside) return {};
-    const Recovery& base = segment_.recoveries[static_cast<std::size_t>(site)];
-    const double surface = base.deformation > 0.0 ? Relaxation(system_, segment_, base).deformation_at(t_) : 0.0;
-    const double depth = depth_inside(site) - surface;
-    const double at_once = system_.recovery ? speed_of(system_, segment_, state_) / kFastestRecovery : 0.0;
-    if (depth > depth_noise() + at_once) return fault(Invariant::no_passing, "depth of a point that is outside", depth);
+    const double depth = depth_inside(site) - surface_of(site);
+    if (depth > depth_noise() + at_once())
+      return fault(Invariant::no_passing, "depth of a point that is outside", depth);
     return {};
   }
 
@@ -207,13 +227,13 @@ std::optional<Fault> check_segment(const System& system, double tolerance, doubl
   if (segment.flight != nullptr || segment.layer_crossing != nullptr) {
     for (int i = 0; i <= kFlightPoints; ++i)
       if (auto found = check.at(segment.duration * i / kFlightPoints)) return found;
-    return {};
+    return check.touches();
   }
   for (const double share : kSeriesPoints) {
     if (auto found = check.at(share * segment.duration)) return found;
     if (segment.duration == 0.0) break;
   }
-  return {};
+  return check.touches();
 }
 
 double energy_noise(const System& system, const Segment& segment) {

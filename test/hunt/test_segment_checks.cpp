@@ -128,6 +128,14 @@ TEST_F(DoctoredSegment, with_an_impact_that_nobody_noticed) {
   expect_broken(Invariant::no_passing);
 }
 
+TEST_F(DoctoredSegment, that_touches_what_it_is_inside_of) {
+  const auto touches = [](const Segment& g) { return g.event_count > 0 && g.events[0].kind == EventKind::touch; };
+  segment_ = segment_where(scene_, touches);
+  EXPECT_FALSE(check_segment(system_, scene_.solver.tolerance, 1.0, segment_));
+  segment_.end.y -= 1e-6;
+  expect_broken(Invariant::no_passing);
+}
+
 TEST_F(DoctoredSegment, a_flight_that_goes_through_the_base) {
   segment_ = segment_where(scene_, [](const Segment& g) { return g.loaded_count == 0 && g.duration > 1e-3; });
   // straight down instead of its closed form

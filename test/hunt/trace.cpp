@@ -105,19 +105,23 @@ Trace run_trial(const Scene& scene, bool checked, double uncertain) {
   const System system = make_system(scene);
   const double size = system.half_width + system.base_distance, unseen = uncertain * scene.solver.tolerance * size;
   Hops hops(system);
+  double way_since_touch = INFINITY;  // at most
   while (simulation.advance()) {
     const Segment& segment = simulation.segment();
     if (uncertain > 0.0) hops.follow(segment);
     trace.energy_noise += energy_noise(system, segment);
     const auto speed = [size](const State& q) { return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * size; };
-    for (const State& q : {segment.begin, segment.end}) trace.fastest = std::max(trace.fastest, speed(q));
+    const double fastest = std::max(speed(segment.begin), speed(segment.end));
+    trace.fastest = std::max(trace.fastest, fastest);
+    way_since_touch += fastest * segment.duration;
     if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
     if (!ends_with_touch(segment)) continue;
     // a point that an implicit step has left beside its face may touch several times at once, a part that comes level
     // touches with two points in the order of rounding, and the ring that such steps leave makes or spares low hops
     const double since = trace.touches.empty() ? INFINITY : segment.end_time() - trace.touches.back().time;
-    const bool at_once = since <= kSameTime || since * speed(segment.end) <= unseen;
+    const bool at_once = since <= kSameTime || way_since_touch <= unseen;
     if (uncertain > 0.0 && (at_once || hops.end_below(unseen, segment))) continue;
+    way_since_touch = 0.0;
     trace.all_touches = trace.touches.size() < kMaxTouches;
     if (trace.all_touches) trace.touches.push_back({segment.end_time(), segment.end});
   }

@@ -18,7 +18,7 @@ namespace {
 /// Starts that are tried: enough of them to meet a decision that rounding makes, if there is one.
 constexpr int kNudges = 8;
 
-/// Steps of a moved start, beside those that the hunt allows.
+/// Steps of what a trial is compared with, beside those that the hunt allows.
 constexpr long kMoreSteps = 20;
 
 /// A trial that makes this of its last digits says nothing of its mirror image, in which another touch may come or go.
@@ -84,6 +84,7 @@ void compare_with_mirror_image(const Scene& scene, const System& system, const T
 void compare_with_event(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
   Scene by_event = scene;
   by_event.solver.name = "event";
+  by_event.solver.step_limit *= kMoreSteps;
   const double allowed = 1e-9 + kStepErrors * scene.solver.tolerance;
   const auto pair_with = [&](const Trace& own, double uncertain) {
     const Trace other = run_trial(by_event, false, uncertain);
