@@ -25,7 +25,7 @@ constexpr double kSlipRounding = 1e-13;
 constexpr double kSurelySliding = 1e-8;
 
 /// Rounding of a length relative to those that it is made of; and how many times as much that of steps adds up to.
-constexpr double kLengthRounding = 3e-16, kAddedUp = 1e3;
+constexpr double kLengthRounding = 3e-16, kAddedUp = 20.0;
 
 /// Times are compared with that of what has been found only up to rounding.
 constexpr double kSurelyLater = 1.0 + 1e-12;

@@ -32,6 +32,9 @@ constexpr double kPairs = 0.1;
 /// Rounding of coordinates and velocities, relative to the size of the part and its speed.
 constexpr double kRounding = 4e-16;
 
+/// Error of the velocities in the tanh layer at most, as a share of its width: T follows V, however large N is.
+constexpr double kLayerError = 0.01;
+
 /// A solution is continued over at most so many times its length.
 constexpr double kLongestGuess = 2.0;
 
@@ -194,7 +197,10 @@ VIBRATORY_ALIGNMENT_INLINE Octet StageEquations::sizes_of(const Stages& accelera
   return abs(acceleration[0]) + abs(acceleration[1]) + reach * abs(acceleration[2]);
 }
 
-double StageEquations::allowed(double h) const { return std::max(tolerance_ * speed_scale(h), rounding_); }
+double StageEquations::allowed(double h) const {
+  const double layer = in_layer() ? kLayerError * system_.regularization : std::numeric_limits<double>::infinity();
+  return std::max(std::min(tolerance_ * speed_scale(h), layer), rounding_);
+}
 
 double StageEquations::allowed_from(const Segment& segment, double h) const {
   double push = 0.0;

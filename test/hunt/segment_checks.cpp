@@ -21,9 +21,10 @@ constexpr double kSlipErrors = 1e3;        ///< V also holds what T was wrong by
 constexpr double kForceDigits = 1e-15;     ///< forces that are in balance
 constexpr double kFastestRecovery = 1e12;  ///< a base that recovers at this rate is taken to do so at once
 constexpr double kWorstCut = 1e-4;         ///< part of its terms that a force's series may leave out
-/// An implicit step fulfils the equations of motion at its end. Before that its polynomials leave out what it passes
-/// over, of which a damper makes forces, but not more than so many times N (docs/implicit_steps.md "Rings").
-constexpr double kPassedOverForce = 1.0;
+/// An implicit step fulfils the equations of motion at its end (but where an event has ended it at once, relative to
+/// the time: it is not taken again to that). Before that its polynomials leave out what it passes over, of which a
+/// damper makes forces, but not more than so many times N (docs/implicit_steps.md "Rings").
+constexpr double kPassedOverForce = 1.0, kNoProgress = 1e-15;
 constexpr double kSeriesPoints[] = {0.0, 0.13, 0.5, 0.87, 1.0};
 constexpr int kFlightPoints = 20;  ///< a leap in flight is long
 
@@ -86,12 +87,12 @@ ForceTerms force_terms(const Segment& segment, int i, double t) {
 
 class SegmentCheck {
  public:
-  SegmentCheck(const System& system, double tolerance, double fastest, const Segment& segment)
+  SegmentCheck(const System& system, const Digits& digits, const Segment& segment)
       : system_(system),
-        tolerance_(tolerance),
-        fastest_(fastest),
+        tolerance_(digits.tolerance),
+        fastest_(digits.fastest),
         segment_(segment),
-        digits_(kDigits + (segment.coarse ? 1.0 : kCut) * tolerance) {}
+        digits_(kDigits + (segment.coarse || digits.by_implicit_steps ? 1.0 : kCut) * digits.tolerance) {}
 
   std::optional<Fault> at(double t) {
     t_ = t;
@@ -146,7 +147,8 @@ class SegmentCheck {
     const double n_noise =
         p.stiffness * depth_noise() + p.damping * rate_noise + (kDigits + tolerance_) * terms.normal + terms.normal_cut;
     if (n < -n_noise) return fault(Invariant::base_pushes, "N", n);
-    const bool at_end = !segment_.coarse || t_ >= segment_.duration;
+    const bool hardly = segment_.duration <= kNoProgress * segment_.start.value();
+    const bool at_end = !segment_.coarse || (t_ >= segment_.duration && !hardly);
     const double passed_over = at_end ? 0.0 : kPassedOverForce * std::max(0.0, std::min(n, p.normal_force));
     if (std::abs(n - p.normal_force) > 10.0 * n_noise + passed_over)
       return fault(Invariant::base_pushes, "N - (k d + h d')", n - p.normal_force);
@@ -222,8 +224,8 @@ class SegmentCheck {
 
 }  // namespace
 
-std::optional<Fault> check_segment(const System& system, double tolerance, double fastest, const Segment& segment) {
-  SegmentCheck check(system, tolerance, fastest, segment);
+std::optional<Fault> check_segment(const System& system, const Digits& digits, const Segment& segment) {
+  SegmentCheck check(system, digits, segment);
   if (segment.flight != nullptr || segment.layer_crossing != nullptr) {
     for (int i = 0; i <= kFlightPoints; ++i)
       if (auto found = check.at(segment.duration * i / kFlightPoints)) return found;

@@ -13,9 +13,16 @@
 
 namespace vibratory_alignment::hunt {
 
-/// The first breach in the segment, at its ends and some instants between. `tolerance` is the solver's, `fastest` the
-/// largest speed of the part's points so far.
-std::optional<Fault> check_segment(const System& system, double tolerance, double fastest, const Segment& segment);
+/// What a trial is known to.
+struct Digits {
+  double tolerance;  ///< the solver's
+  double fastest;    ///< largest speed of the part's points so far
+  bool by_implicit_steps =
+      false;  ///< places are known to the tolerance, also in the series that go on from such a step
+};
+
+/// The first breach in the segment, at its ends and some instants between.
+std::optional<Fault> check_segment(const System& system, const Digits& digits, const Segment& segment);
 
 /// Energy that the last digits of places in this segment are worth, and the creep of what sticks for the last
 /// digits of its forces: what a ledger cannot know.

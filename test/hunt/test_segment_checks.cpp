@@ -40,7 +40,7 @@ class DoctoredSegment : public testing::Test {
   Segment segment_ = segment_where(scene_, slides_under_load);
 
   void expect_broken(Invariant invariant) const {
-    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, 1.0, segment_);
+    const std::optional<Fault> fault = check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_);
     ASSERT_TRUE(fault);
     EXPECT_STREQ(to_string(fault->invariant), to_string(invariant));
   }
@@ -49,7 +49,7 @@ class DoctoredSegment : public testing::Test {
 TEST_F(DoctoredSegment, is_found_nothing_in_before) {
   Simulation simulation(scene_);
   while (simulation.advance()) {
-    const std::optional<Fault> fault = check_segment(system_, scene_.solver.tolerance, 1.0, simulation.segment());
+    const std::optional<Fault> fault = check_segment(system_, {scene_.solver.tolerance, 1.0}, simulation.segment());
     ASSERT_FALSE(fault) << fault->detail;
   }
 }
@@ -87,7 +87,7 @@ TEST_F(DoctoredSegment, with_more_base_force_than_an_implicit_step_passes_over) 
     force[0] += share_at_end * value_at(force, before.order, h);
     force[1] += 4.0 * amid / h;
     force[2] -= 4.0 * amid / (h * h);
-    return check_segment(system_, scene_.solver.tolerance, 1.0, segment_);
+    return check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_);
   };
   EXPECT_FALSE(check_with(0.8, 0.0));
   EXPECT_TRUE(check_with(1.2, 0.0));
@@ -97,8 +97,8 @@ TEST_F(DoctoredSegment, with_more_base_force_than_an_implicit_step_passes_over) 
 // What rates are known to: their digits are those of the fastest motion, and with it of the force of the damper.
 TEST_F(DoctoredSegment, is_judged_by_the_digits_of_the_fastest_motion) {
   segment_.loaded[0].normal_force[0] *= 1.0 + 1e-5;
-  EXPECT_TRUE(check_segment(system_, scene_.solver.tolerance, 1e3, segment_));
-  EXPECT_FALSE(check_segment(system_, scene_.solver.tolerance, 1e9, segment_));
+  EXPECT_TRUE(check_segment(system_, {scene_.solver.tolerance, 1e3}, segment_));
+  EXPECT_FALSE(check_segment(system_, {scene_.solver.tolerance, 1e9}, segment_));
 }
 
 TEST_F(DoctoredSegment, with_friction_beyond_the_cone) {
@@ -131,7 +131,7 @@ TEST_F(DoctoredSegment, with_an_impact_that_nobody_noticed) {
 TEST_F(DoctoredSegment, that_touches_what_it_is_inside_of) {
   const auto touches = [](const Segment& g) { return g.event_count > 0 && g.events[0].kind == EventKind::touch; };
   segment_ = segment_where(scene_, touches);
-  EXPECT_FALSE(check_segment(system_, scene_.solver.tolerance, 1.0, segment_));
+  EXPECT_FALSE(check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_));
   segment_.end.y -= 1e-6;
   expect_broken(Invariant::no_passing);
 }

@@ -114,7 +114,8 @@ Trace run_trial(const Scene& scene, bool checked, double uncertain) {
     const double fastest = std::max(speed(segment.begin), speed(segment.end));
     trace.fastest = std::max(trace.fastest, fastest);
     way_since_touch += fastest * segment.duration;
-    if (checked && !trace.fault) trace.fault = check_segment(system, scene.solver.tolerance, trace.fastest, segment);
+    const Digits digits = {scene.solver.tolerance, trace.fastest, takes_implicit_steps(scene)};
+    if (checked && !trace.fault) trace.fault = check_segment(system, digits, segment);
     if (!ends_with_touch(segment)) continue;
     // a point that an implicit step has left beside its face may touch several times at once, a part that comes level
     // touches with two points in the order of rounding, and the ring that such steps leave makes or spares low hops
