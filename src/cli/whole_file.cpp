@@ -7,7 +7,6 @@
 #include "cli/errors.h"
 
 namespace vibratory_alignment {
-
 namespace {
 
 /// By now something has run.

@@ -427,8 +427,8 @@ class Search {
   }
 
   /// Of a point that is said to be outside, but is inside from the start by the conditions of `region`, of which `last`
-  /// became true last: those that it is leaving by last digits that have added up, and the last one if it leaves a base
-  /// that has recovered at once, count as zero. True if there are any.
+  /// became true last: those that it is leaving by last digits that have added up, and the last one if it leaves that
+  /// faster than the base follows, count as zero. True if there are any.
   bool counts_as_leaving(Site site, const Region& region, int last, double rounding, Conditions& conditions) const {
     bool any = false;
     for (int j = 0; j < region.count; ++j) {

@@ -1,7 +1,6 @@
 // Part of EventSolver: how a step in contact is taken, by power series, by an implicit step, or by whichever goes
 // further for its cost (docs/hybrid_step.md "Contact", docs/implicit_steps.md, docs/automatic.md).
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -101,7 +100,7 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
 /// Longest part of a step over which the series of cos phi and sin phi hold, and those of points that turn with them.
 /// The last terms of a power series show what is cut off. Where phi is the polynomial of an implicit step they are
 /// exact, and what is cut off of cos phi and sin phi is smaller than they are by the sum of the terms of phi beyond the
-/// first; of a place turned by them it is the products of powers whose sum is more than the order.
+/// first.
 double EventSolver::direction_step(double step, double point_tolerance) {
   const PairSeries& direction = series_.direction(segment_);
   const int order = segment_.order;
@@ -109,18 +108,8 @@ double EventSolver::direction_step(double step, double point_tolerance) {
   double turn = 0.0;
   for (int k = order; k > 0; --k) turn = (turn + std::abs(segment_.phi[k])) * step;
   step = std::min(step, pair_step(direction, order, turn > point_tolerance ? point_tolerance / turn : 1.0));
-
-  std::array<double, kMaxOrder + 2> from{};  // sums of the terms of cos phi and sin phi from a power on
-  double power = 1.0;
-  for (int k = 0; k <= order; ++k, power *= step)
-    from[k] = (std::abs(direction[k][0]) + std::abs(direction[k][1])) * power;
-  for (int k = order; k > 0; --k) from[k - 1] += from[k];
-  double cut_off = 0.0;
-  power = step;
-  for (int i = 1; i <= order; ++i, power *= step)
-    cut_off += (std::abs(segment_.x[i]) + std::abs(segment_.y[i])) * power * from[order + 1 - i];
-  const double allowed = point_tolerance * (system_.half_width + system_.base_distance);
-  return cut_off > allowed ? step * std::pow(allowed / cut_off, 1.0 / (order + 1)) : step;
+  const double size = system_.half_width + system_.base_distance;
+  return turned_place_step(segment_, direction, step, point_tolerance * size);
 }
 
 /// One step in contact of at most `longest`, by the method that is due.

@@ -306,7 +306,7 @@ double ImplicitStep::length_over(const FastMotion& motion, double least, double 
   const double eigenvalue = collocation().eigenvalue[0].real();
   const double z = std::min(kLongRing, h * eigenvalue * motion.rate), left = 1.0 + z * z;
   // a rounded place is pushed back by the springs: to the speed of their ring, or of a creep, which is slower
-  const double rounding = equations_.place_rounding(segment) * std::min(motion.rate, natural_rate_);
+  const double rounding = equations_.depth_rounding(segment) * std::min(motion.rate, natural_rate_);
   const double most_speed = std::max(equations_.allowed_from(segment, z / (eigenvalue * motion.rate)) * left * left / z,
                                      kRingOfRounding * rounding);
   over_ = {motion.rate, most_speed};

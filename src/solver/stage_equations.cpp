@@ -208,7 +208,7 @@ double StageEquations::allowed_from(const Segment& segment, double h) const {
   return tolerance_ * (size_of({segment.vx[0], segment.vy[0], segment.omega[0]}) + speed_of_push(push, h));
 }
 
-double StageEquations::place_rounding(const Segment& segment) const {
+double StageEquations::depth_rounding(const Segment& segment) const {
   double along_normal = 0.0;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const Site site = segment.loaded[i].site;

@@ -52,7 +52,7 @@ class StageEquations {
   /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the
   /// depths there.
   double allowed_from(const Segment& segment, double h) const;
-  double place_rounding(const Segment& segment) const;
+  double depth_rounding(const Segment& segment) const;
 
  private:
   double evaluate_stages(Stages& residual, SolverCounts& counts);

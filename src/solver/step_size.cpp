@@ -1,6 +1,7 @@
 #include "solver/step_size.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -109,6 +110,21 @@ double pair_step(const PairSeries& series, int order, double tolerance) {
     if (term > 0.0) shortest = std::min(shortest, (log2_tolerance - rough_log2(term)) / k);
   }
   return rough_exp2(shortest);
+}
+
+double turned_place_step(const Segment& segment, const PairSeries& direction, double step, double tolerance) {
+  const int order = segment.order;
+  std::array<double, kMaxOrder + 2> from{};  // sums of the terms of the direction from a power on
+  double power = 1.0;
+  for (int k = 0; k <= order; ++k, power *= step)
+    from[k] = (std::abs(direction[k][0]) + std::abs(direction[k][1])) * power;
+  for (int k = order; k > 0; --k) from[k - 1] += from[k];
+  double lost = 0.0;
+  power = step;
+  for (int i = 1; i <= order; ++i, power *= step)
+    lost += (std::abs(segment.x[i]) + std::abs(segment.y[i])) * power * from[order + 1 - i];
+  // its lowest power is order + 1
+  return lost > tolerance ? step * std::pow(tolerance / lost, 1.0 / (order + 1)) : step;
 }
 
 int series_order(double tolerance) {

@@ -24,6 +24,11 @@ constexpr double kSmallestTolerance = 1e-16;
 /// Longest time over which the last two terms of a pair of series stay below `tolerance`, absolute.
 [[gnu::noinline]] double pair_step(const PairSeries& series, int order, double tolerance);
 
+/// Of a step over which x, y and cos phi, sin phi are these polynomials, the part over which the products of a place
+/// with a direction lose less than `tolerance`, absolute, by powers above the order.
+[[gnu::noinline]] double turned_place_step(const Segment& segment, const PairSeries& direction, double step,
+                                           double tolerance);
+
 /// Order of the series for a tolerance: the number of its digits and a constant, where a step costs least for its
 /// length.
 int series_order(double tolerance);

@@ -28,10 +28,6 @@ double size_of(const System& s, const State& q) {
   return std::abs(q.x) + std::abs(q.y) + s.half_width + s.base_distance;
 }
 
-double speed_of(const System& s, const State& q) {
-  return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * (s.half_width + s.base_distance);
-}
-
 double difference_of_places(const System& s, const State& p, const State& q) {
   const double place = std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.phi - q.phi) * s.half_width});
   return place / size_of(s, p);

@@ -17,8 +17,8 @@ namespace vibratory_alignment::hunt {
 struct Digits {
   double tolerance;  ///< the solver's
   double fastest;    ///< largest speed of the part's points so far
-  bool by_implicit_steps =
-      false;  ///< places are known to the tolerance, also in the series that go on from such a step
+  /// Places are known to the tolerance, also in the series that go on from an implicit step.
+  bool by_implicit_steps = false;
 };
 
 /// The first breach in the segment, at its ends and some instants between.

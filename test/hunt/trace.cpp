@@ -99,6 +99,10 @@ bool takes_implicit_steps(const Scene& scene) {
   return name == "implicit" || name == kImplicitAlone || name == "auto";
 }
 
+double speed_of(const System& system, const State& q) {
+  return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * (system.half_width + system.base_distance);
+}
+
 Trace run_trial(const Scene& scene, bool checked, double uncertain) {
   Trace trace;
   Simulation simulation(scene);
@@ -110,8 +114,7 @@ Trace run_trial(const Scene& scene, bool checked, double uncertain) {
     const Segment& segment = simulation.segment();
     if (uncertain > 0.0) hops.follow(segment);
     trace.energy_noise += energy_noise(system, segment);
-    const auto speed = [size](const State& q) { return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * size; };
-    const double fastest = std::max(speed(segment.begin), speed(segment.end));
+    const double fastest = std::max(speed_of(system, segment.begin), speed_of(system, segment.end));
     trace.fastest = std::max(trace.fastest, fastest);
     way_since_touch += fastest * segment.duration;
     const Digits digits = {scene.solver.tolerance, trace.fastest, takes_implicit_steps(scene)};

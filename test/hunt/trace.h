@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fault.h"
+#include "mechanics/system.h"
 #include "model/scene.h"
 #include "trial/outcome.h"
 
@@ -25,6 +26,9 @@ struct Trace {
   double fastest = 0.0;        ///< largest speed of the part's points: what the digits of its rates are those of
   std::optional<Fault> fault;  ///< the first breach in a segment
 };
+
+/// Largest speed of the part's points, at most.
+double speed_of(const System& system, const State& state);
 
 /// Later touches are not compared: each impact can make a difference ten times larger.
 constexpr std::size_t kMaxTouches = 5;
