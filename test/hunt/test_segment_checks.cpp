@@ -14,15 +14,6 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
-/// The first segment of the trial that `wanted` accepts.
-Segment segment_where(const Scene& scene, const std::function<bool(const Segment&)>& wanted) {
-  Simulation simulation(scene);
-  while (simulation.advance())
-    if (wanted(simulation.segment())) return simulation.segment();
-  ADD_FAILURE() << "no such segment";
-  return {};
-}
-
 bool is_loaded_throughout(const Segment& g) {
   if (g.loaded_count != 1 || g.duration == 0.0) return false;
   const auto force = [&](double share) { return value_at(g.loaded[0].normal_force, g.order, share * g.duration); };
@@ -37,7 +28,17 @@ class DoctoredSegment : public testing::Test {
  protected:
   Scene scene_ = test::scene_of(test::plain);
   System system_ = make_system(scene_);
-  Segment segment_ = segment_where(scene_, slides_under_load);
+  std::optional<Simulation> simulation_;  ///< what the segment came from: a flight's lies in its solver
+  Segment segment_ = segment_where(slides_under_load);
+
+  /// The first segment of a trial of the scene that `wanted` accepts.
+  Segment segment_where(const std::function<bool(const Segment&)>& wanted) {
+    simulation_.emplace(scene_);
+    while (simulation_->advance())
+      if (wanted(simulation_->segment())) return simulation_->segment();
+    ADD_FAILURE() << "no such segment";
+    return {};
+  }
 
   void expect_broken(Invariant invariant) const {
     const std::optional<Fault> fault = check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_);
@@ -78,7 +79,7 @@ TEST_F(DoctoredSegment, with_a_base_force_whose_last_terms_are_too_large) {
 TEST_F(DoctoredSegment, with_more_base_force_than_an_implicit_step_passes_over) {
   scene_ = test::scene_of(test::plain, {"gripper.pressing_force=3", "initial={x: 0.21}"});
   system_ = make_system(scene_);
-  const Segment before = segment_where(scene_, is_loaded_throughout);
+  const Segment before = segment_where(is_loaded_throughout);
   const auto check_with = [&](double share_amid, double share_at_end) {
     segment_ = before;
     segment_.coarse = true;
@@ -130,14 +131,14 @@ TEST_F(DoctoredSegment, with_an_impact_that_nobody_noticed) {
 
 TEST_F(DoctoredSegment, that_touches_what_it_is_inside_of) {
   const auto touches = [](const Segment& g) { return g.event_count > 0 && g.events[0].kind == EventKind::touch; };
-  segment_ = segment_where(scene_, touches);
+  segment_ = segment_where(touches);
   EXPECT_FALSE(check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_));
   segment_.end.y -= 1e-6;
   expect_broken(Invariant::no_passing);
 }
 
 TEST_F(DoctoredSegment, a_flight_that_goes_through_the_base) {
-  segment_ = segment_where(scene_, [](const Segment& g) { return g.loaded_count == 0 && g.duration > 1e-3; });
+  segment_ = segment_where([](const Segment& g) { return g.loaded_count == 0 && g.duration > 1e-3; });
   // straight down instead of its closed form
   const State& begin = segment_.begin;
   segment_.flight = nullptr;
