@@ -24,6 +24,8 @@ bool slides_under_load(const Segment& g) {
   return g.loaded_count == 1 && g.duration > 0.0 && value_at(g.loaded[0].normal_force, g.order, 0.5 * g.duration) > 1.0;
 }
 
+bool ends_with_touch(const Segment& g) { return g.event_count > 0 && g.events[0].kind == EventKind::touch; }
+
 class DoctoredSegment : public testing::Test {
  protected:
   Scene scene_ = test::scene_of(test::plain);
@@ -95,6 +97,21 @@ TEST_F(DoctoredSegment, with_more_base_force_than_an_implicit_step_passes_over) 
   EXPECT_TRUE(check_with(0.0, 1e-3));
 }
 
+// An event may end it at once, before the time has moved on.
+TEST_F(DoctoredSegment, of_an_implicit_step_that_ends_at_once) {
+  scene_ = test::scene_of(test::plain, {"gripper.pressing_force=3", "initial={x: 0.21}"});
+  system_ = make_system(scene_);
+  segment_ = segment_where(is_loaded_throughout);
+  segment_.coarse = true;
+  segment_.duration = 1e-16;
+  segment_.end = segment_.begin;
+  segment_.loaded[0].normal_force[0] *= 1.5;
+  segment_.start.high = 1.0;
+  EXPECT_FALSE(check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_));
+  segment_.start.high = 0.0;
+  expect_broken(Invariant::base_pushes);
+}
+
 // What rates are known to: their digits are those of the fastest motion, and with it of the force of the damper.
 TEST_F(DoctoredSegment, is_judged_by_the_digits_of_the_fastest_motion) {
   segment_.loaded[0].normal_force[0] *= 1.0 + 1e-5;
@@ -130,11 +147,25 @@ TEST_F(DoctoredSegment, with_an_impact_that_nobody_noticed) {
 }
 
 TEST_F(DoctoredSegment, that_touches_what_it_is_inside_of) {
-  const auto touches = [](const Segment& g) { return g.event_count > 0 && g.events[0].kind == EventKind::touch; };
-  segment_ = segment_where(touches);
+  segment_ = segment_where(ends_with_touch);
   EXPECT_FALSE(check_segment(system_, {scene_.solver.tolerance, 1.0}, segment_));
   segment_.end.y -= 1e-6;
   expect_broken(Invariant::no_passing);
+}
+
+// The edge is at the part's bottom, and so not inside the part; inside of its side it is.
+TEST_F(DoctoredSegment, that_touches_a_face_far_away) {
+  segment_ = segment_where(ends_with_touch);
+  segment_.events[0].face = Face::right_side;
+  expect_broken(Invariant::no_passing);
+}
+
+// A step of the series is wrong by a hundredth of the tolerance; after implicit steps its places are by all of it.
+TEST_F(DoctoredSegment, whose_place_implicit_steps_have_made) {
+  segment_ = segment_where(ends_with_touch);
+  segment_.end.y -= 0.3 * scene_.solver.tolerance;
+  expect_broken(Invariant::no_passing);
+  EXPECT_FALSE(check_segment(system_, {scene_.solver.tolerance, 1.0, true}, segment_));
 }
 
 TEST_F(DoctoredSegment, a_flight_that_goes_through_the_base) {

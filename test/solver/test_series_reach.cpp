@@ -293,5 +293,53 @@ TEST(SeriesReach, the_edge_of_the_tanh_layer_is_an_event) {
   }
 }
 
+// x = -5 t + 2 t^2 beside a direction 4 t^7 loses 8 t^9, and keeps 20 t^8.
+TEST(TurnedPlaceStep, ends_where_the_power_above_the_order_is_due) {
+  Segment segment;
+  segment.order = 8;
+  segment.x = {0.0, -5.0, 2.0};
+  PairSeries direction{};
+  direction[7] = Pair{0.0, 4.0};
+  const double due = std::pow(kTolerance / 8.0, 1.0 / 9.0);
+  for (const double share : {1.5, 10.0})
+    EXPECT_NEAR(turned_place_step(segment, direction, share * due, kTolerance) / due, 1.0, 1e-12) << share;
+  EXPECT_EQ(turned_place_step(segment, direction, 0.9 * due, kTolerance), 0.9 * due);
+}
+
+// What the bound is for: the products lose no more than the tolerance, and where steps are shortened a good part of it.
+TEST(TurnedPlaceStep, keeps_places_beside_a_part_that_turns_to_the_tolerance) {
+  for (const double reach : {1.0, 100.0})
+    for (const double rate : {0.3, 3.0}) {
+      Segment segment;
+      segment.order = 8;
+      segment.x = cosine(reach, 0.3);
+      segment.y = cosine(-0.5 * reach, 1.1);
+      PairSeries direction{};
+      const Series cos = cosine(1.0, 0.8), sin = cosine(1.0, 0.8 - kHalfPi);
+      double power = 1.0;
+      for (int k = 0; k <= 8; ++k, power *= rate) {
+        const auto index = static_cast<std::size_t>(k);
+        direction[k] = Pair{cos[index] * power, sin[index] * power};
+      }
+      const double step = turned_place_step(segment, direction, 5.0, kTolerance);
+      ASSERT_LT(step, 5.0);
+      // u = x cos + y sin, its powers up to the order beside all of them
+      const auto lost = [&](double t) {
+        double all = 0.0, kept = 0.0;
+        for (int i = 0; i <= 8; ++i)
+          for (int j = 0; j <= 8; ++j) {
+            const auto index = static_cast<std::size_t>(i);
+            const double term =
+                (segment.x[index] * direction[j][0] + segment.y[index] * direction[j][1]) * std::pow(t, i + j);
+            all += term;
+            if (i + j <= 8) kept += term;
+          }
+        return std::abs(all - kept);
+      };
+      EXPECT_LE(lost(step), kTolerance) << reach << ", " << rate;
+      EXPECT_GT(lost(2.0 * step), kTolerance) << reach << ", " << rate;
+    }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

@@ -129,6 +129,32 @@ TEST(EnergyLedger, of_a_segment_that_only_rounding_sees) {
   EXPECT_NEAR(account.ledger().base_loss / (kDamping * kSpeed * kSpeed * kTime), 1.0, 1e-6);
 }
 
+// An implicit step passes over a ring, which its velocities may still show at its start: the damper takes no more than
+// N says, (N - k d) d'.
+TEST(EnergyLedger, of_an_implicit_step) {
+  constexpr double kTime = 1e-3, kSpeed = 2.0, kDepth = 1e-2, kDamping = 600.0, kStiffness = 1e6;
+  const System system = make_system(scene_of(test::ball, {"base={stiffness: {y: 1.0e6}, damping: {y: 600}}"}));
+  for (const double share : {0.0, 0.5, 1.0}) {  // of the damper's force that is in N
+    Segment g;
+    g.coarse = true;
+    g.duration = kTime;
+    g.order = 1;
+    g.begin.y = system.base_distance - kDepth;
+    g.end.y = g.begin.y - kSpeed * kTime;
+    g.begin.vy = g.end.vy = -kSpeed;
+    g.y = {g.begin.y, -kSpeed};
+    g.vy = {-kSpeed};
+    g.contacts[0] = {Phase::loaded, Face::bottom};
+    g.loaded_count = 1;
+    g.loaded[0].site = Site::a1;
+    g.loaded[0].depth = {kDepth, kSpeed};
+    g.loaded[0].normal_force = {kStiffness * kDepth + share * kDamping * kSpeed, kStiffness * kSpeed};
+    EnergyAccount account(system);
+    account.book(g);
+    EXPECT_NEAR(account.ledger().base_loss / (kDamping * kSpeed * kSpeed * kTime), share, 1e-9);
+  }
+}
+
 // C1 != C2: the normal turns under load and the spring's stiffness with it, which is a term of its own.
 TEST(EnergyLedger, of_a_normal_that_turns) {
   const std::vector<std::string> turning = {"base={stiffness: {x: 300, y: 900}}",
