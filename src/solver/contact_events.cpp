@@ -419,22 +419,13 @@ class Search {
                               system_.base_distance + system_.slot_half_width);
   }
 
-  /// True when a base could push nothing on a point that is inside it: the point leaves faster than the base follows.
-  bool is_left_behind(Site site, Face face) const {
-    if (!is_called_for(system_, face)) return false;
-    const PlacedState placed(segment_.begin);
-    return contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() < 0.0;
-  }
-
-  /// Of a point that is said to be outside, but is inside from the start by the conditions of `region`, of which `last`
-  /// became true last: those that it is leaving by last digits that have added up, and the last one if it leaves that
-  /// faster than the base follows, count as zero. True if there are any.
-  bool counts_as_leaving(Site site, const Region& region, int last, double rounding, Conditions& conditions) const {
+  /// Of a point that is said to be outside, but is inside from the start: conditions of its region that it is leaving
+  /// by last digits that have added up count as zero. True if there are any.
+  static bool counts_as_leaving(const Region& region, double rounding, Conditions& conditions) {
     bool any = false;
     for (int j = 0; j < region.count; ++j) {
-      if (conditions.zeros_at_start[j] > 0 || !(conditions.g[j][1] < 0.0)) continue;
-      const bool by_last_digits = conditions.g[j][0] <= kAddedUp * rounding;
-      if (!by_last_digits && !(j == last && is_left_behind(site, region.conditions[j].face))) continue;
+      const bool leaves = conditions.g[j][1] < 0.0 && conditions.g[j][0] <= kAddedUp * rounding;
+      if (conditions.zeros_at_start[j] > 0 || !leaves) continue;
       conditions.zeros_at_start[j] = 1;
       any = true;
     }
@@ -461,7 +452,7 @@ class Search {
         conditions.zeros_at_start[j] = pinned || (at_start > 0.0 && at_start <= rounding) ? 1 : 0;
       }
       Entry entry = first_entry(conditions, order_, duration_);
-      if (entry.time == 0.0 && counts_as_leaving(site, region, entry.last, rounding, conditions))
+      if (entry.time == 0.0 && counts_as_leaving(region, rounding, conditions))
         entry = first_entry(conditions, order_, duration_);
       if (entry.time == kNoRoot) continue;
       const Face face = region.conditions[entry.last].face;
