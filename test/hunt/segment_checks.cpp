@@ -251,6 +251,11 @@ double energy_noise(const System& system, const Segment& segment) {
     const double force = terms.normal + terms.tangential + p.stiffness * depth_noise;
     const double creep = mobility(system, p) * kForceDigits * force * h;  // a speed
     noise += force * (depth_noise + creep * h);
+    if (!segment.coarse) continue;
+    // at the nodes of an implicit step N is known to the last digits of the places only, and with it the work of T
+    const TouchPoint at_end = touch_point(system, segment.end, {contact.site, face});
+    const double slip = std::max(std::abs(p.slip), std::abs(at_end.slip));
+    noise += p.stiffness * kPlaceDigits * length_of(system, q) * system.friction * slip * h;
   }
   return noise;
 }
