@@ -317,7 +317,7 @@ void EventSolver::take_step(double longest, bool contact) {
     step = series_step(system_, segment_, point_tolerance);
   }
   go_along(step, longest, point_tolerance, contact);
-  if (!implicit_now_ || (implicit_->keeps_normal_forces(segment_, mode_.pins) && !implicit_->leaves_ring_of_start()))
+  if (!implicit_now_ || (implicit_->keeps_contacts(segment_, mode_.pins) && !implicit_->leaves_ring_of_start()))
     return;
   leave_implicit_step();
   go_along(series_contact_step(longest, forms_), longest, point_tolerance, contact);

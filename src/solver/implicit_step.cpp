@@ -313,7 +313,7 @@ double ImplicitStep::length_over(const FastMotion& motion, double least, double 
   return motion.speed <= most_speed ? h : 0.0;
 }
 
-bool ImplicitStep::keeps_normal_forces(const Segment& segment, const Pins& pins) const {
+bool ImplicitStep::keeps_contacts(const Segment& segment, const Pins& pins) const {
   if (follows_) return true;
   const Forces& state = equations_.start_forces();
   const StageAxes missed = velocity_missed_at_start();
@@ -325,6 +325,10 @@ bool ImplicitStep::keeps_normal_forces(const Segment& segment, const Pins& pins)
     const double of_speed = spring_force_of(system_, equations_.start(), contact.site, face, missed);
     const double ring = std::hypot(of_state - of_step, of_speed);
     if (!(ring <= kMostOverForce * std::min(of_state, of_step))) return false;
+    if (slip_of(segment, contact) != Slip::stick) continue;
+    const double held = std::abs(contact.tangential_force[0]);
+    const double most_held = held + std::abs(state.contact[i].tangential_force - contact.tangential_force[0]);
+    if (most_held > system_.friction * (of_step - ring)) return false;
   }
   return true;
 }
