@@ -35,7 +35,8 @@ void TrialRun::set_pressing_force(double pressing_force) {
 void TrialRun::apply_changes() {
   if (!excitations_changed_ && !pressing_force_changed_) return;
   if (sample_count_ == 0) return restart();
-  simulation_->cut(sampler_->time());
+  // it may have come further than the last sample
+  simulation_->cut(std::max(sampler_->time(), simulation_->segment().start.value()));
   if (excitations_changed_) simulation_->set_excitations(scene_.excitations);
   if (pressing_force_changed_) simulation_->set_pressing_force(*scene_.gripper.pressing_force);
   excitations_changed_ = pressing_force_changed_ = false;

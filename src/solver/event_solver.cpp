@@ -82,6 +82,19 @@ bool rings_base(EventKind kind) {
          kind == EventKind::drive_kink;
 }
 
+/// Time has passed: what was zero at the start no longer is. But a point that has not come out of its face yet, by the
+/// error of the time at which it left it, goes on to.
+void drop_pins(const System& system, const State& state, double tolerance, ContactMode& mode) {
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const Face face = mode.pins[i].face;
+    mode.pins[i] = {};
+    if (face == Face::none || mode.contacts[i].phase != Phase::outside) continue;
+    const ContactKinematics k = contact_kinematics(system, state, static_cast<Site>(i), face);
+    const double most = tolerance * (system.half_width + system.base_distance);
+    if (k.depth > 0.0 && k.depth <= most && k.depth_rate < 0.0) mode.pins[i].face = face;
+  }
+}
+
 bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
 }
@@ -192,7 +205,11 @@ void EventSolver::go_to_end() {
   // events may coincide, but not for ever
   const bool hardly = implicit_now_ && segment_.duration <= kHardly * end.high;
   const bool progress = (end.high != now_.high || end.low != now_.low) && !hardly;
-  events_without_progress_ = progress ? 0 : events_without_progress_ + 1;
+  if (progress)
+    events_without_progress_ = 0;
+  else if (!is_cut_)
+    ++events_without_progress_;
+  is_cut_ = false;
   if (progress && implicit_) implicit_->leave_start();
   by_implicit_step_ = implicit_now_ || (by_implicit_step_ && !progress);
   now_ = end;
@@ -202,10 +219,11 @@ void EventSolver::go_to_end() {
     mode_ = next_mode_;
     may_cross_ = true;
   } else if (segment_.duration > 0.0) {
-    mode_.pins.fill(SitePins{});
+    drop_pins(system_, state_, tolerance_, mode_);
   }
   if (drives_change_) drives_ = next_drives_;
-  drives_change_ = false;
+  drives_change_ = forces_have_jumped_ = false;
+  asked_.clear();
   counts_.events += segment_.event_count;
   bool rings = false;
   for (int i = 0; i < segment_.event_count; ++i) {
@@ -317,8 +335,7 @@ void EventSolver::take_step(double longest, bool contact) {
     step = series_step(system_, segment_, point_tolerance);
   }
   go_along(step, longest, point_tolerance, contact);
-  if (!implicit_now_ || (implicit_->keeps_contacts(segment_, mode_.pins) && !implicit_->leaves_ring_of_start()))
-    return;
+  if (!implicit_now_ || (implicit_->keeps_contacts(segment_, mode_.pins) && !implicit_->leaves_ring_of_start())) return;
   leave_implicit_step();
   go_along(series_contact_step(longest, forms_), longest, point_tolerance, contact);
 }
@@ -418,7 +435,7 @@ void EventSolver::prepare_next(FoundEvents& found, bool kink) {
     found.kink = kink;
     apply_events(system_, segment_, forms_, friction_, found, next_mode_);
   } else if (mode_changes_ && segment_.duration > 0.0) {
-    next_mode_.pins.fill(SitePins{});
+    drop_pins(system_, segment_.end, tolerance_, next_mode_);
   }
   for (int i = 0; i < found.count; ++i)
     segment_.events[static_cast<std::size_t>(segment_.event_count++)] = found.events[static_cast<std::size_t>(i)];
@@ -433,6 +450,13 @@ void EventSolver::cut(double duration) {
   may_cross_ = true;
   FoundEvents none;
   prepare_next(none, false);
+  is_cut_ = true;
+  if (!forces_have_jumped_) return;
+  // what was to change at the old end does so here
+  if (asked_.empty())
+    forces_jump();
+  else
+    set_excitations(asked_);
 }
 
 void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
@@ -441,6 +465,7 @@ void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
   for (std::size_t i = 0; i < drives.size() && i < excitations.size(); ++i) drives[i].change(excitations[i], when);
   if (!started_) next_drives_ = drives_;
   drives_change_ = started_;
+  if (started_ && &asked_ != &excitations) asked_ = excitations;
   forms_known_ = false;
   forces_jump();
 }
@@ -454,17 +479,25 @@ void EventSolver::set_anchor_y(double anchor_y) {
 void EventSolver::forces_jump() {
   in_flight_ = false;
   if (!started_) return;
+  forces_have_jumped_ = true;
   if (implicit_) implicit_->restart(true);
   ring();
   const Instant end = segment_.start + segment_.duration;
   if (!mode_changes_) {
     next_mode_ = mode_;
-    if (segment_.duration > 0.0) next_mode_.pins.fill(SitePins{});
+    if (segment_.duration > 0.0) drop_pins(system_, segment_.end, tolerance_, next_mode_);
     mode_changes_ = true;
+  }
+  // V that an event has just made zero still is; how it goes on from there is for the new forces to say
+  SiteFlags zero_slip{};
+  for (std::size_t i = 0; i < kSiteCount && system_.regularization == 0.0; ++i) {
+    SitePins& pins = next_mode_.pins[i];
+    zero_slip[i] = next_mode_.contacts[i].phase == Phase::loaded && pins.slip > 0;
+    pins.slip = pins.hold_plus = pins.hold_minus = 0;
   }
   DriveForms forms;
   set_forms(next_drives_, end, forms);
-  decide_friction_anew(system_, segment_, forms, friction_, next_mode_);
+  decide_friction_anew(system_, segment_, forms, zero_slip, friction_, next_mode_);
 }
 
 }  // namespace vibratory_alignment

@@ -56,6 +56,7 @@ class EventSolver final : public Solver {
   bool has_event(double step, const DriveForms& drives);
   double implicit_contact_step(const StepBounds& bounds, const DriveForms& drives);
   void leave_implicit_step();
+  void doubt_implicit_steps();
   double shorten_implicit_step(double step);
   void retake_to_events(const DriveForms& drives, FoundEvents& found);
   bool contradicted() const;
@@ -84,9 +85,12 @@ class EventSolver final : public Solver {
   ContactMode mode_, next_mode_;  ///< during the segment, and from its end on
   bool mode_changes_ = false;     ///< next_mode_ holds; else mode_ does, without pins once time has passed
   std::vector<Drive> drives_, next_drives_;
-  bool drives_change_ = false;  ///< next_drives_ are others than drives_
-  DriveForms forms_;            ///< of the drives, from now_ on; once the segment's end is prepared, from there on
-  bool forms_known_ = false;    ///< forms_ are those of the next segment
+  bool drives_change_ = false;       ///< next_drives_ are others than drives_
+  std::vector<Excitation> asked_;    ///< excitations that the drives change to at the segment's end
+  bool forces_have_jumped_ = false;  ///< at the segment's end, by a change that was asked for
+  bool is_cut_ = false;              ///< the segment ends where it was cut
+  DriveForms forms_;                 ///< of the drives, from now_ on; once the segment's end is prepared, from there on
+  bool forms_known_ = false;         ///< forms_ are those of the next segment
   OutcomeGuards outcomes_;
   bool started_ = false;
 

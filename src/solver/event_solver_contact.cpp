@@ -36,6 +36,10 @@ constexpr double kMinute = 1e-12;
 /// Lengths that are tried, each half of the one before, where a shorter step does not converge.
 constexpr int kMostShorter = 6;
 
+/// Events that are not there in a step that ends at them, which is so much shorter than the one that found them, were
+/// its error.
+constexpr double kMuchShorter = 1e-3;
+
 /// Friction beyond its limit, relative to it: where it is decided anew, and where that has found no answer.
 constexpr double kExcessFriction = 1e-8, kTooMuchFriction = 1e-3;
 
@@ -88,7 +92,7 @@ double EventSolver::series_contact_step(double longest, const DriveForms& drives
   segment_.end = state_;
   for (std::size_t i = 0; i < kSiteCount; ++i)
     if (mode_.contacts[i].slip == Slip::stick) mode_.pins[i].hold_plus = mode_.pins[i].hold_minus = 0;
-  decide_friction_anew(system_, segment_, drives, friction_, mode_);
+  decide_friction_anew(system_, segment_, drives, {}, friction_, mode_);
   for (std::size_t i = 0; i < kSiteCount; ++i) segment_.contacts[i].slip = mode_.contacts[i].slip;
   segment_.begin = state_ = hold_sticking(system_, state_, mode_.contacts);
   series_step_ = expand_contact(longest, drives);
@@ -222,7 +226,10 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
 /// An implicit step; 0 when there is none within the bounds.
 double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveForms& drives) {
   const double step = implicit_->take(state_, drives, bounds, segment_, counts_);
-  if (step == 0.0 || excess_friction(system_, segment_, 0.0) > kExcessFriction) return 0.0;
+  if (step == 0.0 || excess_friction(system_, segment_, 0.0) > kExcessFriction) {
+    implicit_->forget();
+    return 0.0;
+  }
   implicit_now_ = true;
   implicit_length_ = step;
   series_.adopt(segment_);
@@ -237,11 +244,17 @@ void EventSolver::leave_implicit_step() {
   if (method_ == ContactMethod::automatic) {
     choice_.give_up_implicit(spent());
     choice_.earn();
-  } else if (method_ == ContactMethod::implicit) {
-    ring_watch_.give_up_implicit();
   } else {
-    implicit_->follow_base();
+    doubt_implicit_steps();
   }
+}
+
+/// The next steps are those of the series, or short. Automatic: what an implicit step has lost tells.
+void EventSolver::doubt_implicit_steps() {
+  if (method_ == ContactMethod::implicit)
+    ring_watch_.give_up_implicit();
+  else if (method_ == ContactMethod::implicit_alone)
+    implicit_->follow_base();
 }
 
 /// Takes the implicit step again with the length `step`, or where that does not converge with half of it, and so on.
@@ -258,9 +271,11 @@ double EventSolver::shorten_implicit_step(double step) {
 
 /// Takes the implicit step again to the events found in it, until they are where the shorter step, which is the more
 /// exact one, has them. None are left where that has none, unless it is so short that rounding holds the state, or
-/// where only a step that ends before them converges.
+/// where only a step that ends before them converges. Where a much shorter step has none, the error of the long one
+/// made them, and would again from there.
 void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found) {
   double shift_before = std::numeric_limits<double>::infinity();
+  const double whole = implicit_length_;
   for (int i = 0; i < kMostRetakes && found.time > kHardly * now_.high; ++i) {
     const double length = shorten_implicit_step(found.time);
     if (length == 0.0) return;
@@ -270,7 +285,10 @@ void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found)
     find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
     if (found.count == 0 && length <= kMinute * now_.high) found = before;
     if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
-    if (found.count == 0) return;
+    if (found.count == 0) {
+      if (length < kMuchShorter * whole) doubt_implicit_steps();
+      return;
+    }
     const double shift = std::abs(found.time - length);
     if (shift > kMostShift * length) {
       if (shift > kSlowShift * shift_before) return;  // rounding is all that moves it

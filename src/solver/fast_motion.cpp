@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace vibratory_alignment {
 namespace {
@@ -66,7 +67,9 @@ double normal_force_change(const Segment& segment, double t, int lowest) {
     const Series& force = segment.loaded[i].normal_force;
     double change = 0.0;
     for (int k = segment.order; k > 0; --k) change = (change + (k < lowest ? 0.0 : std::abs(force[k]))) * t;
-    most = std::max(most, change / force[0]);
+    // what begins with no more than its last digits is anything but quiet
+    if (change > 0.0)
+      most = std::max(most, force[0] > 0.0 ? change / force[0] : std::numeric_limits<double>::infinity());
   }
   return most;
 }

@@ -143,6 +143,7 @@ void FixedStepSolver::book_end(bool whole) {
 
 void FixedStepSolver::cut(double duration) {
   segment_.end = duration > 0.0 ? state_at(segment_, duration) : segment_.begin;
+  if (duration == 0.0) segment_.loaded_count = 0;  // the forces at its start are those of the step before
   segment_.duration = duration;
   book_end(false);
 }

@@ -50,11 +50,17 @@ constexpr double kNegligible = 1e-2;
 /// multiple of its tolerance, in lengths of the part.
 constexpr double kPassedOver = 100.0;
 
+/// Of a chirp h is that of (f + |rate| h) h = kLongestDrive.
 double longest_drive_step(const DriveForms& drives) {
-  double fastest = 0.0;
-  for (int i = 0; i < drives.count; ++i)
-    fastest = std::max(fastest, std::abs(drives.form[static_cast<std::size_t>(i)].frequency));
-  return fastest > 0.0 ? kLongestDrive / fastest : std::numeric_limits<double>::infinity();
+  double longest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < drives.count; ++i) {
+    const DriveForm& form = drives.form[static_cast<std::size_t>(i)];
+    if (form.amplitude == 0.0) continue;
+    const double frequency = std::abs(form.frequency), sweep = 4.0 * kLongestDrive * std::abs(form.rate);
+    const double fastest = 0.5 * (frequency + std::sqrt(frequency * frequency + sweep));
+    if (fastest > 0.0) longest = std::min(longest, kLongestDrive / fastest);
+  }
+  return longest;
 }
 
 /// Time in which the base alone answers: its period over 2 pi, or the time in which its damper stops the part.

@@ -262,9 +262,12 @@ Entry first_entry(const Conditions& conditions, int order, double h) {
   for (int i = 0; i < conditions.count; ++i) set_bernstein(unit.g[i], orders[i], forms[i]);
   Entry entry = first_entry_on_part(unit, orders, forms, {});
   // inside from the start: through the face on which the point lies
-  if (entry.time == 0.0)
+  if (entry.time == 0.0) {
+    for (int i = 0; i < conditions.count; ++i)
+      if (holds_for_less(forms[i], forms[entry.last])) entry.last = i;
     for (int i = 0; i < conditions.count; ++i)
       if (conditions.zeros_at_start[i] > 0) entry.last = i;
+  }
   if (entry.time != kNoRoot) entry.time *= h;
   return entry;
 }

@@ -135,6 +135,8 @@ void StageEquations::set_rounding(double h) {
     add(start_jacobian_.by_position, axis, length);
     add(start_jacobian_.by_velocity, axis, speed);
   }
+  add(start_jacobian_.by_position, 2, std::abs(start_.phi));
+  add(start_jacobian_.by_velocity, 2, std::abs(start_.omega));
 }
 
 /// States of the stages from their accelerations. Returns the largest change of a velocity.
@@ -212,8 +214,9 @@ double StageEquations::depth_rounding(const Segment& segment) const {
   double along_normal = 0.0;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const Site site = segment.loaded[i].site;
-    const Face face = segment.contacts[static_cast<std::size_t>(site)].face;
-    const Vec2 normal = contact_kinematics(system_, segment.begin, site, face).normal;
+    const ContactState& contact = segment.contacts[static_cast<std::size_t>(site)];
+    if (contact.phase != Phase::loaded) continue;
+    const Vec2 normal = contact_kinematics(system_, segment.begin, site, contact.face).normal;
     along_normal = std::max(along_normal, std::abs(normal.x * segment.begin.x) + std::abs(normal.y * segment.begin.y));
   }
   return kRounding * (along_normal + system_.half_width + system_.base_distance);

@@ -50,7 +50,7 @@ class StageEquations {
   double size_of(const StageAxes& acceleration) const;
 
   /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the
-  /// depths there.
+  /// depths there, of those of its contacts that are loaded.
   double allowed_from(const Segment& segment, double h) const;
   double depth_rounding(const Segment& segment) const;
 

@@ -240,8 +240,8 @@ double excess_friction(const System& system, const Segment& segment, double step
 }
 
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,
-                          FrictionChoice& friction, ContactMode& mode) {
-  set_friction(system, segment.end, drives, motions_of(segment), {}, {}, false, friction, mode);
+                          const SiteFlags& zero_slip, FrictionChoice& friction, ContactMode& mode) {
+  set_friction(system, segment.end, drives, motions_of(segment), zero_slip, {}, false, friction, mode);
 }
 
 ContactMode start_mode(const System& system, const State& start, const DriveForms& drives, FrictionChoice& friction) {

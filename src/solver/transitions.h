@@ -13,9 +13,10 @@ namespace vibratory_alignment {
 [[gnu::noinline]] void apply_events(const System& system, const Segment& segment, const DriveForms& drives_at_end,
                                     FrictionChoice& friction, FoundEvents& events, ContactMode& mode);
 
-/// Decides friction anew at the segment's end: the forces have jumped without an event.
+/// Decides friction anew at the segment's end: the forces have jumped without an event. `zero_slip`: contacts whose V
+/// is known to be zero.
 void decide_friction_anew(const System& system, const Segment& segment, const DriveForms& drives,
-                          FrictionChoice& friction, ContactMode& mode);
+                          const SiteFlags& zero_slip, FrictionChoice& friction, ContactMode& mode);
 
 /// How far T of what sticks is beyond f N at the segment's start, at most, as a share of the f N that the next `step`
 /// sees. T of contacts that hold nearly the same motion is not known to the last digit while that motion is; where it

@@ -150,7 +150,10 @@ void EnergyAccount::book_powers(const Segment& segment, const Relaxations& relax
 void EnergyAccount::move_anchor_y(double anchor_y, const State& state) {
   const double before = mechanical(state);
   system_.y.anchor = anchor_y;
-  if (started_) ledger_.excitation_work += mechanical(state) - before;
+  if (!started_) return;
+  const double work = mechanical(state) - before;
+  ledger_.excitation_work += work;
+  ledger_.final += work;
 }
 
 EnergyLedger EnergyAccount::ledger() const {

@@ -59,7 +59,7 @@ void SettlingWatch::restart(const std::vector<Excitation>& excitations, double n
   for (const Excitation& e : excitations) {
     if (e.amplitude == 0.0) continue;
     rate_ = std::max(rate_, final_frequency(e));
-    if (e.waveform == Waveform::chirp) begin_ = std::max(begin_, e.sweep_time);
+    if (e.waveform == Waveform::chirp) begin_ = std::max(begin_, now + e.sweep_time);
   }
 }
 

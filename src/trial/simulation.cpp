@@ -53,7 +53,7 @@ class Simulation::Impl {
   const Segment& segment() const { return solver_->segment(); }
 
   void cut(double t) {
-    if (!has_segment_) return;
+    if (!has_segment_ || !std::isfinite(t)) return;
     // an instant has more digits than t: where t is the start but for these, nothing has passed yet
     double duration = t - segment().start;
     if (std::abs(duration) <= 2.3e-16 * std::abs(t)) duration = 0.0;

@@ -34,11 +34,13 @@ class Simulation {
   const Segment& segment() const;
 
   /// Ends the current segment at time t inside it, so that changes enter at t. The next advance() starts there. With a
-  /// t outside nothing is cut: changes enter at the segment's end.
+  /// t outside, or none at all (NaN, infinite), nothing is cut: changes enter at the segment's end.
   void cut(double t);
 
   /// Changes of the running excitation and press; call them between cut() and advance() or before the first advance().
-  /// They enter where the current segment ends. The phase of an excitation stays continuous when its frequency changes.
+  /// They enter where the current segment ends, also where that is cut once more. The phase of an excitation stays
+  /// continuous when its frequency changes; a chirp begins anew. Of fewer excitations than the scene has the others go
+  /// on.
   void set_excitations(const std::vector<Excitation>& excitations);
   void set_pressing_force(double pressing_force);
 

@@ -93,6 +93,44 @@ TEST(TrialRun, ChangeEntersWhereASampleWasHeld) {
   EXPECT_GT(std::abs(sample.state.y - undisturbed.state.y), 1e-5);
 }
 
+// ... also where it has come to a segment that lasts beyond the next sample, and where another change follows in it. A
+// part that nothing shakes keeps its energy about the anchor.
+TEST(TrialRun, ChangesInALongFlightEnterAtOnceAndStay) {
+  const Scene scene = load_scene(YAML::Load(R"(
+part: {half_width: 0.6, base_distance: 0.9}
+slot: {clearance: 0.09}
+gripper: {anchor: {y: 6.0}}
+base: {stiffness: {y: 1.0e4}}
+contacts: [edges]
+excitation: {amplitude: 1.0, frequency: 0.3}
+initial: {x: 0.2, y: 6.0, phi: 0.0}
+trial: {time_limit: 100.0}
+)"),
+                                 "flight");
+  TrialRun run(scene, 3.0), plain(scene, 3.0);
+  Sample sample, of_plain;
+  while (run.next(sample, {}, 20.5)) {
+  }
+  while (plain.time() < 21.0) ASSERT_TRUE(plain.next(of_plain));
+  std::vector<Excitation> none = scene.excitations;
+  none[0].amplitude = 0.0;
+  run.set_excitations(none);
+  ASSERT_TRUE(run.next(sample));
+  ASSERT_EQ(sample.time, of_plain.time);
+  EXPECT_NE(sample.state.vy, of_plain.state.vy);
+  run.set_pressing_force(-5.1);
+  const double anchor = 0.9 + 5.1;  // where it touches level, less the press
+  double least = HUGE_VAL, most = 0.0;
+  while (run.next(sample)) {
+    const double stretch = sample.state.y - anchor;
+    const double energy = 0.5 * (sample.state.vy * sample.state.vy + stretch * stretch);
+    least = std::min(least, energy);
+    most = std::max(most, energy);
+  }
+  EXPECT_GT(sample.time, 60.0);
+  EXPECT_LT(most - least, 1e-9);
+}
+
 TEST(TrialRun, SameExcitationsAgainChangeNothingButRoundoff) {
   const Scene scene = small_scene::load();
   TrialRun plain(scene, kInterval), changed(scene, kInterval);

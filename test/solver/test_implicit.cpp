@@ -55,6 +55,70 @@ TEST(Implicit, cost_of_lasting_contact_does_not_depend_on_the_stiffness) {
   }
 }
 
+/// Touches and the end, by both.
+void expect_as_event(const Scene& scene, const std::string& solver, double tolerance) {
+  const TrialResult expected = run_with(scene, "event", tolerance), result = run_with(scene, solver, tolerance);
+  ASSERT_EQ(result.outcome, expected.outcome) << solver << ": " << result.failure;
+  EXPECT_EQ(result.impacts, expected.impacts) << solver;
+  EXPECT_LT(test::distance(result.final_state, expected.final_state), 1e-5) << solver;
+}
+
+// The frequency at the start of a chirp does not tell how far a step may go: what it becomes in the step does.
+TEST(Implicit, steps_follow_a_chirp) {
+  const Scene scene = test::scene_of(R"(
+part: {half_width: 0.6, base_distance: 0.9}
+slot: {clearance: 0.09}
+gripper: {damping: {y: 0.05}, pressing_force: 0.95}
+base: {stiffness: {y: 1.0e8}, damping: {y: 2.0e4}}
+contacts: [corners]
+excitation: {amplitude: 1.0, frequency: 1.0e-3, waveform: chirp, end_frequency: 30.0, sweep_time: 20.0}
+initial: {x: 0.3}
+trial: {time_limit: 20}
+)");
+  ASSERT_GT(run_with(scene, "event", 1e-6).impacts[static_cast<std::size_t>(Spot::b1)], 10);
+  for (const char* solver : {"implicit", "auto"}) expect_as_event(scene, solver, 1e-6);
+}
+
+// An excitation without amplitude asks for no steps.
+TEST(Implicit, steps_do_not_follow_what_has_no_amplitude) {
+  Scene scene = pressed(1e8, 1.0);
+  const long alone = run_with(scene, "implicit", 1e-6).counts.steps;
+  scene.excitations.push_back({});
+  scene.excitations.back().amplitude = 0.0;
+  scene.excitations.back().frequency = 1e4;
+  EXPECT_EQ(run_with(scene, "implicit", 1e-6).counts.steps, alone);
+}
+
+// A level part on two corners, of which one slides from rest as t^3: a long step finds V = 0 within its error, at once,
+// and would from there again and again.
+TEST(Implicit, events_of_a_long_step_that_a_short_one_does_not_have_stop_nothing) {
+  const Scene scene = test::scene_of(R"(
+part: {half_width: 1.2, base_distance: 0.9, inertia: 0.2}
+slot: {clearance: 0.09}
+gripper: {stiffness: {x: 0.08, phi: 60.0}, damping: {x: 0.02, y: 0.05, phi: 0.03}, pressing_force: 3}
+base: {stiffness: {y: 1.0e4}, damping: {y: 2.0e4}}
+contacts: [corners]
+friction: {coefficient: 0.5}
+excitation: {direction: phi, amplitude: 5.0, frequency: 5.0}
+initial: {x: 2.5}
+trial: {time_limit: 2}
+)");
+  for (const char* solver : {"implicit", "auto", kImplicitAlone}) {
+    expect_as_event(scene, solver, 1e-6);
+    EXPECT_LT(run_with(scene, solver, 1e-6).counts.steps, 1000) << solver;
+  }
+}
+
+// After a thousand turns phi is known to fewer digits, and so is what they make of the forces.
+TEST(Implicit, steps_are_as_long_after_a_thousand_turns) {
+  const auto steps = [](double turns) {
+    Scene scene = pressed(1e8, 1.0);
+    scene.initial.phi = scene.gripper.anchor_phi = 2.0 * 3.14159265358979323846 * turns;
+    return run_with(scene, "implicit", 1e-6).counts.steps;
+  };
+  EXPECT_LT(steps(1000.0), 2 * steps(0.0));
+}
+
 // On the stiffest bases rounding moves an event whatever the length of its step, which is not taken again for that.
 TEST(Implicit, events_that_only_rounding_moves_are_not_sought_again) {
   const auto cost = [](double stiffness) {

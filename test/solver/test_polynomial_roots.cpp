@@ -364,6 +364,20 @@ TEST(FirstEntry, a_pinned_condition_starts_outside) {
   }
 }
 
+// From the start inside all of them: through the one that holds for the shortest time, whatever becomes of another.
+TEST(FirstEntry, inside_already_is_through_what_holds_for_the_shortest_time) {
+  for (const double bend : {0.0, -20.0}) {
+    Conditions conditions;
+    conditions.count = 3;
+    conditions.g[0] = {4e-14, 1.0};
+    conditions.g[1] = {10.0, 1.0, bend};
+    conditions.g[2] = {5.0};
+    const Entry entry = first_entry(conditions, 4, 1.0);
+    EXPECT_EQ(entry.time, 0.0);
+    EXPECT_EQ(entry.last, 0) << bend;
+  }
+}
+
 TEST(FirstEntry, inside_already_is_now) {
   Conditions conditions;
   conditions.count = 2;

@@ -150,6 +150,109 @@ TEST(Changes, cuts_at_events_keep_what_is_known_to_be_zero) {
     }
 }
 
+// What slides since an event knew V and V' by the old forces; under the new ones it goes whichever way they push it.
+TEST(Changes, at_slip_events_make_a_contact_slide_the_way_it_is_pushed) {
+  const Scene scene = scene_of(bouncing, {"friction.coefficient=0.4", "solver.tolerance=1e-8"});
+  int tried = 0;
+  for (const test::TimedEvent& e : test::events_of(scene, 4.0)) {
+    if (e.event.kind != EventKind::slip) continue;
+    for (const double amplitude : {20.0, -20.0}) {
+      Simulation simulation(scene);
+      while (simulation.advance() && simulation.segment().end_time() != e.time) {
+      }
+      std::vector<Excitation> along = scene.excitations;
+      along[0].direction = Direction::x;
+      along[0].amplitude = amplitude;
+      along[0].phase = 1.5;
+      simulation.set_excitations(along);
+      ASSERT_TRUE(simulation.advance());
+      const Segment& g = simulation.segment();
+      for (int i = 0; i < g.loaded_count; ++i)
+        for (const double share : {0.25, 0.5, 1.0}) {
+          const ContactValues c = contact_at(g, i, share * g.duration);
+          EXPECT_LE(c.tangential_force * c.slip_velocity, 1e-9) << e.time << ", " << amplitude;
+        }
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 4);
+}
+
+// The release is known to the truncation of the series; a point that is inside by that goes on out.
+TEST(Changes, cuts_after_a_release_make_no_touch) {
+  const Scene scene = scene_of(bouncing, {"friction=null", "base={stiffness: {y: 4000}}",
+                                          "initial.y=0.95", "excitation.phase=0", "solver.tolerance=1e-4"});
+  const TrialResult plain = test::run(scene, {}, 4.0);
+  for (const double after : {3e-16, 1e-15, 3e-15, 1e-14, 1e-13, 1e-12}) {
+    SimulationOptions options;
+    options.until = 4.0;
+    Simulation simulation(scene, options);
+    bool released = false;
+    while (simulation.advance()) {
+      const Segment& g = simulation.segment();
+      if (released) simulation.cut(g.start.value() + after);
+      released = g.event_count > 0 && g.events[0].kind == EventKind::release;
+    }
+    const TrialResult result = simulation.result();
+    EXPECT_EQ(result.impacts, plain.impacts) << after;
+    EXPECT_LT(result.peak_force[0], 1.01 * plain.peak_force[0]) << after;
+  }
+}
+
+// What was to change where the segment ended does so where it is cut after that.
+TEST(Changes, enter_where_the_segment_is_cut_at_last) {
+  for (const double first : {0.7, 0.5}) {
+    Scene scene = scene_of(bouncing, {"initial.y=5.0", "gripper.anchor.y=5.0", "trial.time_limit=3.0"});
+    std::vector<Excitation> none = scene.excitations;
+    none[0].amplitude = 0.0;
+    Simulation simulation(scene);
+    ASSERT_TRUE(simulation.advance());
+    simulation.cut(first);
+    simulation.set_excitations(none);
+    simulation.cut(0.5);
+    const State state = simulation.segment().end;
+    while (simulation.advance()) {
+    }
+    scene.initial = {state.x, state.y, state.phi, state.vx, state.vy, state.omega};
+    scene.excitations = none;
+    scene.trial.time_limit = 2.5;
+    EXPECT_LT(test::distance(simulation.result().final_state, test::run(scene).final_state), 1e-12) << first;
+  }
+}
+
+TEST(Changes, however_many_at_one_instant_end_nothing) {
+  const Scene scene = scene_of(bouncing);
+  for (const char* solver : {"event", "implicit", "auto"}) {
+    Scene s = scene;
+    s.solver.name = solver;
+    Simulation simulation(s);
+    std::vector<Excitation> other = scene.excitations;
+    ASSERT_TRUE(simulation.advance());
+    const double when = 0.5 * simulation.segment().end_time();
+    for (int i = 0; i < 300; ++i) {
+      simulation.cut(when);
+      other[0].amplitude = 1.0 + 1e-3 * i;
+      simulation.set_excitations(other);
+      ASSERT_TRUE(simulation.advance()) << simulation.result().failure;
+    }
+    while (simulation.advance()) {
+    }
+    EXPECT_NE(simulation.result().outcome, Outcome::failed) << solver << ": " << simulation.result().failure;
+  }
+}
+
+TEST(Changes, cuts_at_no_instant_cut_nothing) {
+  const Scene scene = scene_of(bouncing);
+  Simulation simulation(scene);
+  ASSERT_TRUE(simulation.advance());
+  const double duration = simulation.segment().duration;
+  ASSERT_GT(duration, 0.0);
+  for (const double when : {HUGE_VAL, -HUGE_VAL, std::nan(""), -1.0, 1e300}) {
+    simulation.cut(when);
+    EXPECT_EQ(simulation.segment().duration, duration) << when;
+  }
+}
+
 // Asked for at a double that an event's instant rounds to, a change enters there and not a segment later.
 TEST(Changes, at_an_event_enter_at_the_event) {
   const Scene scene = scene_of(bouncing);
@@ -210,6 +313,20 @@ TEST(Changes, of_the_press_move_the_anchor) {
     EXPECT_LT(test::distance(result.final_state, expected.final_state), 1e-9) << when;
     // what the anchor's jump puts into the spring is work from outside: the ledger knows
     EXPECT_LT(result.energy->residual, 1e-9) << when;
+  }
+}
+
+// ... at once, and where nothing comes after it.
+TEST(Changes, of_the_press_are_in_the_ledger_from_then_on) {
+  for (const char* solver : {"event", "rk4"}) {
+    Scene scene = scene_of(bouncing, pressed);
+    scene.trial.time_limit = 1.0;
+    scene.solver.name = solver;
+    if (scene.solver.name == "rk4") scene.solver.step = 1e-4;
+    Simulation simulation(scene);
+    while (simulation.advance())
+      if (simulation.segment().end_time() >= 1.0) simulation.set_pressing_force(1.0);
+    EXPECT_LT(simulation.result().energy->residual, 1e-3) << solver;
   }
 }
 
