@@ -152,7 +152,17 @@ TEST(Changes, cuts_at_events_keep_what_is_known_to_be_zero) {
 
 // What slides since an event knew V and V' by the old forces; under the new ones it goes whichever way they push it.
 TEST(Changes, at_slip_events_make_a_contact_slide_the_way_it_is_pushed) {
-  const Scene scene = scene_of(bouncing, {"friction.coefficient=0.4", "solver.tolerance=1e-8"});
+  const Scene scene = scene_of(R"(
+part: {half_width: 0.673, base_distance: 0.9, inertia: 0.15}
+slot: {clearance: 0.09}
+gripper: {stiffness: {x: 0.5, phi: 30.0}, damping: {x: 0.1, y: 0.1, phi: 1.3}, anchor: {x: 0.2, y: 0.65}}
+base: {stiffness: {y: 4000.0}, damping: {y: 20.0}}
+contacts: [edges]
+friction: {coefficient: 0.4}
+excitation: {amplitude: 1.0, frequency: 20.0}
+initial: {x: 0.2, y: 0.895, phi: 0.025}
+trial: {time_limit: 4.0, aligned_depth: 5.0}
+)");
   int tried = 0;
   for (const test::TimedEvent& e : test::events_of(scene, 4.0)) {
     if (e.event.kind != EventKind::slip) continue;
@@ -163,6 +173,7 @@ TEST(Changes, at_slip_events_make_a_contact_slide_the_way_it_is_pushed) {
       std::vector<Excitation> along = scene.excitations;
       along[0].direction = Direction::x;
       along[0].amplitude = amplitude;
+      along[0].frequency = 1.0;
       along[0].phase = 1.5;
       simulation.set_excitations(along);
       ASSERT_TRUE(simulation.advance());
@@ -175,13 +186,13 @@ TEST(Changes, at_slip_events_make_a_contact_slide_the_way_it_is_pushed) {
       ++tried;
     }
   }
-  EXPECT_GT(tried, 4);
+  EXPECT_GT(tried, 2);
 }
 
 // The release is known to the truncation of the series; a point that is inside by that goes on out.
 TEST(Changes, cuts_after_a_release_make_no_touch) {
-  const Scene scene = scene_of(bouncing, {"friction=null", "base={stiffness: {y: 4000}}",
-                                          "initial.y=0.95", "excitation.phase=0", "solver.tolerance=1e-4"});
+  const Scene scene = scene_of(bouncing, {"friction=null", "base={stiffness: {y: 4000}}", "initial.y=0.95",
+                                          "excitation.phase=0", "solver.tolerance=1e-4"});
   const TrialResult plain = test::run(scene, {}, 4.0);
   for (const double after : {3e-16, 1e-15, 3e-15, 1e-14, 1e-13, 1e-12}) {
     SimulationOptions options;
