@@ -45,6 +45,11 @@ double wrap(double angle) {
   return angle < 0.0 ? angle + kTwoPiHigh : angle;
 }
 
+bool same_sweep(const Excitation& a, const Excitation& b) {
+  return a.waveform == Waveform::chirp && b.waveform == Waveform::chirp && a.frequency == b.frequency &&
+         a.end_frequency == b.end_frequency && a.sweep_time == b.sweep_time;
+}
+
 }  // namespace
 
 Drive::Drive(const Excitation& excitation, const Instant& now)
@@ -134,8 +139,15 @@ double Drive::time_to_kink(const Instant& t) const {
 void Drive::pass_kink() { branch_ = 1 - branch_; }
 
 void Drive::change(const Excitation& excitation, const Instant& now) {
-  const double theta = phase_at(now);
   const double shift = excitation.phase - excitation_.phase;
+  // without amplitude nobody asked for the end of the sweep
+  if (excitation_.waveform == Waveform::chirp && now - reference_ >= excitation_.sweep_time) branch_ = 1;
+  if (same_sweep(excitation, excitation_)) {
+    excitation_ = excitation;
+    reference_phase_ = wrap(reference_phase_ + shift);
+    return;
+  }
+  const double theta = phase_at(now);
   excitation_ = excitation;
   reference_ = now;
   reference_phase_ = wrap(theta + shift);

@@ -57,6 +57,7 @@ class Drive {
   void pass_kink();
 
   /// New settings from `now` on. The phase goes on from where it is, plus the difference of the two `phase` settings.
+  /// So does a sweep of the same frequencies and time; another one begins.
   void change(const Excitation& excitation, const Instant& now);
 
  private:

@@ -223,6 +223,33 @@ TEST(Drive, chirp_is_the_integral_of_its_frequency) {
   }
 }
 
+// Another amplitude, or one of zero for a while, leaves the sweep as it is; another frequency begins a new one.
+TEST(Drive, sweep_goes_on_when_the_amplitude_changes) {
+  const Excitation e = chirp_of(5.0, 40.0, 16.0, 0.3);
+  Excitation louder = e, silent = e;
+  louder.amplitude = 2.0;
+  louder.phase += 0.5;
+  silent.amplitude = 0.0;
+  const Drive undisturbed(e, Instant{});
+  const auto at = [](double t) { return Instant{} + t; };
+  Drive drive(e, Instant{});
+  drive.change(louder, at(4.0));
+  EXPECT_NEAR(angle_between(drive.phase_at(at(7.0)), Float128(undisturbed.phase_at(at(7.0)) + 0.5)), 0.0, 1e-13);
+  EXPECT_EQ(drive.form_at(at(7.0)).frequency, undisturbed.form_at(at(7.0)).frequency);
+  EXPECT_EQ(drive.form_at(at(7.0)).amplitude, 2.0);
+  EXPECT_EQ(drive.time_to_kink(at(7.0)), 9.0);
+  // the end of the sweep is not asked for while nothing shakes
+  drive.change(silent, at(8.0));
+  drive.change(e, at(20.0));
+  EXPECT_EQ(drive.form_at(at(20.0)).frequency, 40.0);
+  EXPECT_EQ(drive.time_to_kink(at(20.0)), std::numeric_limits<double>::infinity());
+  Excitation faster = e;
+  faster.frequency = 8.0;
+  drive.change(faster, at(21.0));
+  EXPECT_EQ(drive.form_at(at(21.0)).frequency, 8.0);
+  EXPECT_EQ(drive.time_to_kink(at(21.0)), 16.0);
+}
+
 TEST(Drive, chirp_goes_on_from_its_end_without_a_jump) {
   const Excitation e = chirp_of(5.0, 40.0, 16.0, 0.3);
   Drive drive(e, {});
