@@ -104,6 +104,7 @@ class EventSolver final : public Solver {
   double series_step_ = 0.0;              ///< last step of the series in contact
   RingWatch ring_watch_;                  ///< implicit
   MethodChoice choice_;                   ///< automatic
+  bool doubted_ = false;                  ///< automatic: a long implicit step has found events that are none
   bool follows_base_ = false;             ///< automatic: the present implicit step is so short that it follows the base
   long evaluations_before_ = 0;           ///< automatic: until the present step
   std::optional<LayerCrossing> layer_crossing_;  ///< where the scene has a layer to cross

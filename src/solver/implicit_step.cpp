@@ -331,7 +331,8 @@ bool ImplicitStep::keeps_contacts(const Segment& segment, const Pins& pins) cons
     const double of_speed = spring_force_of(system_, equations_.start(), contact.site, face, missed);
     const double ring = std::hypot(of_state - of_step, of_speed);
     if (!(ring <= kMostOverForce * std::min(of_state, of_step))) return false;
-    if (slip_of(segment, contact) != Slip::stick) continue;
+    // later on the series have followed what was large
+    if (!at_start_ || slip_of(segment, contact) != Slip::stick) continue;
     const double held = std::abs(contact.tangential_force[0]);
     const double most_held = held + std::abs(state.contact[i].tangential_force - contact.tangential_force[0]);
     if (most_held > system_.friction * (of_step - ring)) return false;

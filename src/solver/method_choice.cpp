@@ -275,6 +275,10 @@ void MethodChoice::book_implicit(double gain) {
   if (credit_ <= 0.0) leave_to_series(kTrialAfter);
 }
 
+void MethodChoice::doubt() {
+  if (implicit_) leave_to_series(kTrialAfter);
+}
+
 void MethodChoice::ring() {
   if (implicit_) leave_to_series(kTrialAfter);
   cross_layer();

@@ -77,6 +77,9 @@ class MethodChoice {
   /// The normal forces jump: the base rings.
   void ring();
 
+  /// The last implicit step has found events that a short one does not have: the series go, for a while.
+  void doubt();
+
   /// The tanh layer has been crossed by neither method: there is no last step.
   void cross_layer();
 
