@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "../support/hard_scene.h"
 #include "../support/motion_check.h"
@@ -106,6 +107,15 @@ trial: {time_limit: 2}
   for (const char* solver : {"implicit", "auto", kImplicitAlone}) {
     expect_as_event(scene, solver, 1e-6);
     EXPECT_LT(run_with(scene, solver, 1e-6).counts.steps, 1000) << solver;
+  }
+}
+
+// ... and cost `auto` no more steps than `implicit`.
+TEST(Implicit, automatic_choice_finds_no_events_that_are_none_again_and_again) {
+  for (const auto& [stiffness, damping_ratio] : {std::pair{1e7, 0.01}, {1e7, 0.1}, {1e8, 1.0}}) {
+    const Scene scene = pressed(stiffness, damping_ratio);
+    const long implicit = run_with(scene, "implicit", 1e-4).counts.steps;
+    EXPECT_LT(run_with(scene, "auto", 1e-4).counts.steps, 1.2 * static_cast<double>(implicit)) << stiffness;
   }
 }
 
