@@ -45,12 +45,12 @@ double wrap(double angle) {
   return angle < 0.0 ? angle + kTwoPiHigh : angle;
 }
 
+}  // namespace
+
 bool same_sweep(const Excitation& a, const Excitation& b) {
   return a.waveform == Waveform::chirp && b.waveform == Waveform::chirp && a.frequency == b.frequency &&
          a.end_frequency == b.end_frequency && a.sweep_time == b.sweep_time;
 }
-
-}  // namespace
 
 Drive::Drive(const Excitation& excitation, const Instant& now)
     : excitation_(excitation), reference_(now), reference_phase_(wrap(excitation.phase)) {

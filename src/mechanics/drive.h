@@ -38,6 +38,9 @@ struct Load3 {
   double x = 0.0, y = 0.0, phi = 0.0;
 };
 
+/// True for two chirps over the same frequencies in the same time: a change from one to the other leaves the sweep.
+bool same_sweep(const Excitation& a, const Excitation& b);
+
 class Drive {
  public:
   Drive(const Excitation& excitation, const Instant& now);

@@ -95,6 +95,18 @@ void drop_pins(const System& system, const State& state, double tolerance, Conta
   }
 }
 
+/// The forces jump: V that an event has just made zero still is (returned); how it goes on from there, and what T is
+/// beside its limits, is for the new forces to say.
+SiteFlags forget_pushes(ContactMode& mode) {
+  SiteFlags zero_slip{};
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    SitePins& pins = mode.pins[i];
+    zero_slip[i] = mode.contacts[i].phase == Phase::loaded && pins.slip > 0;
+    pins.slip = pins.hold_plus = pins.hold_minus = 0;
+  }
+  return zero_slip;
+}
+
 bool any_loaded(const ContactStates& contacts) {
   return std::any_of(contacts.begin(), contacts.end(), [](const ContactState& c) { return c.phase == Phase::loaded; });
 }
@@ -453,21 +465,23 @@ void EventSolver::cut(double duration) {
   is_cut_ = true;
   if (!forces_have_jumped_) return;
   // what was to change at the old end does so here
-  if (asked_.empty())
-    forces_jump();
-  else
-    set_excitations(asked_);
+  if (!asked_.empty()) change_drives(asked_);
+  forces_jump();
 }
 
 void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
+  if (started_) asked_ = excitations;
+  change_drives(excitations);
+  forces_jump();
+}
+
+void EventSolver::change_drives(const std::vector<Excitation>& excitations) {
   std::vector<Drive>& drives = started_ ? next_drives_ : drives_;
   const Instant when = started_ ? segment_.start + segment_.duration : now_;
   for (std::size_t i = 0; i < drives.size() && i < excitations.size(); ++i) drives[i].change(excitations[i], when);
   if (!started_) next_drives_ = drives_;
   drives_change_ = started_;
-  if (started_ && &asked_ != &excitations) asked_ = excitations;
   forms_known_ = false;
-  forces_jump();
 }
 
 void EventSolver::set_anchor_y(double anchor_y) {
@@ -488,13 +502,7 @@ void EventSolver::forces_jump() {
     if (segment_.duration > 0.0) drop_pins(system_, segment_.end, tolerance_, next_mode_);
     mode_changes_ = true;
   }
-  // V that an event has just made zero still is; how it goes on from there is for the new forces to say
-  SiteFlags zero_slip{};
-  for (std::size_t i = 0; i < kSiteCount && system_.regularization == 0.0; ++i) {
-    SitePins& pins = next_mode_.pins[i];
-    zero_slip[i] = next_mode_.contacts[i].phase == Phase::loaded && pins.slip > 0;
-    pins.slip = pins.hold_plus = pins.hold_minus = 0;
-  }
+  const SiteFlags zero_slip = system_.regularization > 0.0 ? SiteFlags{} : forget_pushes(next_mode_);
   DriveForms forms;
   set_forms(next_drives_, end, forms);
   decide_friction_anew(system_, segment_, forms, zero_slip, friction_, next_mode_);

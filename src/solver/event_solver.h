@@ -66,6 +66,7 @@ class EventSolver final : public Solver {
   /// Mode and drives that hold from the segment's end on; makes the kinds of its events definite.
   void prepare_next(FoundEvents& found, bool kink);
   void go_to_end();
+  void change_drives(const std::vector<Excitation>& excitations);
   void forces_jump();
   /// Not finite where any coefficient is not: the last ones are made of all others.
   static double last_terms(const Segment& segment);
@@ -104,7 +105,6 @@ class EventSolver final : public Solver {
   double series_step_ = 0.0;              ///< last step of the series in contact
   RingWatch ring_watch_;                  ///< implicit
   MethodChoice choice_;                   ///< automatic
-  bool doubted_ = false;                  ///< automatic: a long implicit step has found events that are none
   bool follows_base_ = false;             ///< automatic: the present implicit step is so short that it follows the base
   long evaluations_before_ = 0;           ///< automatic: until the present step
   std::optional<LayerCrossing> layer_crossing_;  ///< where the scene has a layer to cross

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "solver/event_solver.h"
 #include "solver/fast_motion.h"
@@ -253,7 +252,7 @@ void EventSolver::leave_implicit_step() {
 /// The next steps are those of the series, or short.
 void EventSolver::doubt_implicit_steps() {
   if (method_ == ContactMethod::automatic)
-    doubted_ = true;
+    choice_.doubt();
   else if (method_ == ContactMethod::implicit)
     ring_watch_.give_up_implicit();
   else if (method_ == ContactMethod::implicit_alone)
@@ -331,12 +330,10 @@ long EventSolver::spent() const { return counts_.rhs_evaluations - evaluations_b
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.
 void EventSolver::settle(double gone, double longest) {
-  if (choice_.implicit()) {
+  if (choice_.implicit())
     choice_.settle_implicit(gone, longest, spent(), follows_base_);
-    if (std::exchange(doubted_, false)) choice_.doubt();
-  } else {
+  else
     choice_.settle_series(gone, longest, found_.count > 0);
-  }
 }
 
 }  // namespace vibratory_alignment

@@ -127,7 +127,7 @@ double MethodChoice::way_ahead() const {
 }
 
 void MethodChoice::leave_to_series(int steps) {
-  implicit_ = false;
+  implicit_ = doubted_ = false;
   implicit_steps_ = 0;
   next_question_ = kFirstQuestion;
   series_steps_ = steps_alike_ = 0;
@@ -258,8 +258,8 @@ void MethodChoice::settle_implicit(double gone, double longest, long evaluations
   paid_ = paid_ || gain > 0.0;
   // cut short by a kink or the limit, it has not lost
   if (!(gone == longest && gain < 0.0)) book_implicit(gain);
-  // as long as the base rings the next one would lose as well
-  if (implicit_ && follows_base && gain < 0.0) leave_to_series(kTrialAfter);
+  // as long as the base rings the next one would lose as well, and what is doubted would find the same again
+  if (implicit_ && (doubted_ || (follows_base && gain < 0.0))) leave_to_series(kTrialAfter);
 }
 
 void MethodChoice::give_up_implicit(long evaluations) {
@@ -273,10 +273,6 @@ void MethodChoice::give_up_implicit(long evaluations) {
 void MethodChoice::book_implicit(double gain) {
   credit_ = std::min(credit_ + gain, kMostCredit);
   if (credit_ <= 0.0) leave_to_series(kTrialAfter);
-}
-
-void MethodChoice::doubt() {
-  if (implicit_) leave_to_series(kTrialAfter);
 }
 
 void MethodChoice::ring() {

@@ -77,8 +77,8 @@ class MethodChoice {
   /// The normal forces jump: the base rings.
   void ring();
 
-  /// The last implicit step has found events that a short one does not have: the series go, for a while.
-  void doubt();
+  /// The present implicit step has found events that a short one does not have: once it is settled the series go.
+  void doubt() { doubted_ = true; }
 
   /// The tanh layer has been crossed by neither method: there is no last step.
   void cross_layer();
@@ -111,6 +111,7 @@ class MethodChoice {
   int more_powers_ = 0;   ///< of the last series than usual
   std::array<Pace, kKinds> paces_;
   bool implicit_ = false;
+  bool doubted_ = false;  ///< what the present implicit step has found are no events
   bool may_pass_over_ = true;
   Attempt attempt_ = Attempt::ordinary;
   bool tried_ = false;           ///< a trial has been made

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/drive.h"
+
 namespace vibratory_alignment {
 namespace {
 
@@ -56,11 +58,16 @@ void SettlingWatch::restart(const std::vector<Excitation>& excitations, double n
   next_ = 0;
   settled_ = false;
   rate_ = 1.0;
-  for (const Excitation& e : excitations) {
+  sweep_ends_.resize(excitations.size());
+  for (std::size_t i = 0; i < excitations.size(); ++i) {
+    const Excitation& e = excitations[i];
+    const bool goes_on = i < excitations_.size() && same_sweep(e, excitations_[i]);
+    if (!goes_on) sweep_ends_[i] = e.waveform == Waveform::chirp ? now + e.sweep_time : 0.0;
     if (e.amplitude == 0.0) continue;
     rate_ = std::max(rate_, final_frequency(e));
-    if (e.waveform == Waveform::chirp) begin_ = std::max(begin_, now + e.sweep_time);
+    begin_ = std::max(begin_, sweep_ends_[i]);
   }
+  excitations_ = excitations;
 }
 
 void SettlingWatch::book(const Segment& segment) {

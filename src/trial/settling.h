@@ -19,7 +19,7 @@ class SettlingWatch {
  public:
   SettlingWatch(const std::vector<Excitation>& excitations, double time_limit);
 
-  /// Starts anew with other excitations from `now` on.
+  /// Starts anew with other excitations from `now` on. Sweeps that have begun before go on (same_sweep).
   void restart(const std::vector<Excitation>& excitations, double now);
 
   /// Books a segment that has been passed to its end.
@@ -36,7 +36,9 @@ class SettlingWatch {
   double difference(const State& a, const State& b) const;
 
   double time_limit_;
-  double period_ = 0.0;  ///< common period of the excitations, 0: they have none
+  std::vector<Excitation> excitations_;
+  std::vector<double> sweep_ends_;  ///< of each excitation; 0 where it is no chirp
+  double period_ = 0.0;             ///< common period of the excitations, 0: they have none
   double begin_ = 0.0;
   double rate_ = 1.0;  ///< fastest excitation, to weigh velocities
   long next_ = 0;      ///< index of the next instant

@@ -39,9 +39,8 @@ class Simulation {
 
   /// Changes of the running excitation and press; call them between cut() and advance() or before the first advance().
   /// They enter where the current segment ends, also where that is cut once more. The phase of an excitation stays
-  /// continuous when its frequency changes; a chirp
-  /// of other frequencies or time begins anew. Of fewer excitations than the scene has the others go
-  /// on.
+  /// continuous when its frequency changes; a sweep of other frequencies or time begins anew. Where fewer excitations
+  /// are given than the scene has, the others go on.
   void set_excitations(const std::vector<Excitation>& excitations);
   void set_pressing_force(double pressing_force);
 

@@ -100,6 +100,38 @@ TEST(Settling, period_of_the_slowest_excitation) {
   EXPECT_NEAR(slowest_period({chirp}), 2.0 * pi / 5.0, 1e-15);
 }
 
+/// When a part at rest is said to have settled, from `start` on.
+double settling_time(SettlingWatch& watch, double start) {
+  Segment rest;
+  rest.duration = 0.5;
+  for (rest.start.high = start; !watch.settled() && rest.start.high < 1000.0; rest.start.high += rest.duration)
+    watch.book(rest);
+  return rest.start.value();
+}
+
+// Nothing is judged during a sweep. One that has begun ends when it was to; another one begins with the change.
+TEST(Settling, waits_for_the_end_of_a_sweep) {
+  Excitation sweep = sine(10.0);
+  sweep.waveform = Waveform::chirp;
+  sweep.end_frequency = 20.0;
+  sweep.sweep_time = 100.0;
+  Excitation louder = sweep, other = sweep;
+  louder.amplitude = 2.0;
+  other.frequency = 11.0;
+  const double judging = 24.0 * 2.0 * 3.14159265358979323846 / 20.0 + 1.0;
+  const auto expect_settled = [&](const Excitation& changed, double when, double end) {
+    SettlingWatch watch({sweep}, 1e4);
+    watch.restart({changed}, when);
+    const double time = settling_time(watch, when);
+    EXPECT_GT(time, end);
+    EXPECT_LT(time, end + judging);
+  };
+  expect_settled(sweep, 0.0, 100.0);
+  expect_settled(louder, 50.0, 100.0);
+  expect_settled(other, 50.0, 150.0);
+  expect_settled(sweep, 300.0, 300.0);
+}
+
 // Excitations without a common period never repeat: such a motion is not judged.
 TEST(Settling, nothing_settles_without_a_common_period) {
   Scene scene =
