@@ -34,8 +34,9 @@ struct RightFactors {
 /// make of them, known a power ahead, and the velocities times constants, so that N and T do not wait for the point of
 /// the contact. n and t lie along the axes of the frame: kLevel, n along the second. k(n) and h(n) of a face that turns
 /// on a base stiffer one way are a constant and a multiple of cos^2 phi (kVaries). T of what sticks takes V' out: of
-/// what the accelerations without it make of V', and of what turning adds. False, with nothing but the start expanded,
-/// where V' has to be taken out twice or nothing can be held.
+/// what the accelerations without it make of V', and of what turning adds. Where little of the motion is left, that is
+/// rid once more of the V' that the rounding of T makes. False, with nothing but the start expanded, where nothing can
+/// be held.
 template <bool kEdge, bool kTurns, bool kVaries, bool kLevel, MotionSeries::Law kLaw>
 VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment) {
   constexpr bool kTanh = kLaw == Law::layer, kSticks = kLaw == Law::sticks, kOwnT = kTanh || kSticks;
@@ -243,10 +244,20 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
       const Pair free_rate = fast * force;
       const HoldingForces::Answer free{{}, free_rate[0], free_rate[1], fast_phi * turn};
       const HoldingForces::Answer held = holding_.hold_motion_of_one(free, number * known_rate[kSlip]);
-      if (k == 0 && (!holding_.regular() || rounding_shows(free, held, segment))) return false;
+      if (k == 0) {
+        if (!holding_.regular()) return false;
+        takes_out_twice_ = rounding_shows(free, held, segment);
+      }
       series.tangential_force[k] = force_t = held.force[0];
       velocity = inverse * Pair{held.x, held.y};
       omega = inverse * held.phi;
+      if (takes_out_twice_) {
+        // V of the next power is what the rounding of a large T has left
+        const Pair left = known_rate + omega * by_omega + velocity[0] * by_vx + velocity[1] * by_vy;
+        const HoldingForces::Answer correction = holding_.hold_motion_of_one({}, left[kSlip]);
+        velocity += Pair{correction.x, correction.y};
+        omega += correction.phi;
+      }
     } else {
       velocity = (fast * inverse) * force;
       omega = (fast_phi * inverse) * turn;
