@@ -20,6 +20,9 @@ constexpr double kFarthestTouch = 100.0;
 /// Moment left over in an equilibrium, relative to those that balance.
 constexpr double kBalanced = 1e-6;
 
+/// Shortest way over which a height is sought.
+constexpr double kShortestWay = 1e-12;
+
 /// y at which the edge at distance rx from C (along x) lies on the lower boundary of the part.
 std::optional<double> edge_touch(const System& system, double rx, double phi) {
   const double a = system.half_width, b = system.base_distance;
@@ -63,9 +66,10 @@ double root_between(const Function& f, double low, double high) {
 /// Height at which the vertical forces balance, searched below `top` (where nothing is touched).
 std::optional<double> balanced_height(const System& system, double x, double phi, double top) {
   const auto lift = [&](double y) { return static_load(system, x, y, phi).force_y; };
-  if (lift(top) >= 0.0) return std::nullopt;
-  // the stiff base carries the load within a short way: double it until the part is pushed up
-  double way = 1e-12;
+  const double load = -lift(top);
+  if (load <= 0.0) return std::nullopt;
+  // the way in which one contact carries the load where the base is stiffest; double it until the part is pushed up
+  double way = std::max(load / std::max(system.stiffness_x, system.stiffness_y), kShortestWay);
   while (lift(top - way) < 0.0) {
     way *= 2.0;
     if (way > 1e9) return std::nullopt;
