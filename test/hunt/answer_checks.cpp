@@ -46,6 +46,10 @@ double difference_of_rates(const System& s, double fastest, const State& p, cons
   return rate / (fastest + 1e-3);
 }
 
+bool has_settled(const Trace& trace) {
+  return trace.result.outcome == Outcome::stalled || trace.result.outcome == Outcome::jammed;
+}
+
 }  // namespace
 
 std::string refusal(const TrialResult& result) {
@@ -99,18 +103,18 @@ double difference(const System& system, const Trace& a, const Trace& b, Compared
   const auto between = [&](const Landmark& p, const Landmark& q) {
     const double known_by_place =
         std::max(difference_of_places(system, p.state, q.state), difference_of_times(system, p, q, compared));
-    return compared == Compared::places
-               ? known_by_place
-               : std::max(known_by_place, difference_of_rates(system, fastest, p.state, q.state));
+    return compared == Compared::places_and_rates
+               ? std::max(known_by_place, difference_of_rates(system, fastest, p.state, q.state))
+               : known_by_place;
   };
   double largest = 0.0;
   for (std::size_t i = 0; i < std::min(a.touches.size(), b.touches.size()); ++i)
     largest = std::max(largest, between(a.touches[i], b.touches[i]));
   if (refused || !a.all_touches) return largest;
+  if (compared == Compared::places_but_settling && (has_settled(a) || has_settled(b))) return largest;
   if (a.result.outcome != b.result.outcome) return INFINITY;
   // a motion that has settled ends with the step in which that is noticed: another one where the steps are others
-  const bool settled = a.result.outcome == Outcome::stalled || a.result.outcome == Outcome::jammed;
-  if (compared == Compared::places && settled && a.result.final_time != b.result.final_time) return largest;
+  if (compared == Compared::places && has_settled(a) && a.result.final_time != b.result.final_time) return largest;
   return std::max(largest,
                   between({a.result.final_time, a.result.final_state}, {b.result.final_time, b.result.final_state}));
 }

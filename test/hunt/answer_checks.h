@@ -31,8 +31,9 @@ std::optional<Fault> check_energy(const Scene& scene, const Trace& trace);
 std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b);
 
 /// What is compared at touches and end besides the times. An implicit step leaves a ring of the base that is too small
-/// to see, and whose speed is not.
-enum class Compared { places, places_and_rates };
+/// to see, and whose speed is not. A change restarts the watch for settling: whether that is noticed before the time
+/// limit says nothing then.
+enum class Compared { places_but_settling, places, places_and_rates };
 
 /// Largest difference of two traces over touches and end, relative to the sizes of the motion and its fastest speed;
 /// infinite where one of them touches or ends otherwise.

@@ -14,9 +14,11 @@ const char* to_string(Invariant invariant) {
     case Invariant::losses: return "losses";
     case Invariant::mirror: return "mirror";
     case Invariant::output_rate: return "output_rate";
-    case Invariant::methods_agree: break;
+    case Invariant::methods_agree: return "methods_agree";
+    case Invariant::cuts: return "cuts";
+    case Invariant::same_settings: break;
   }
-  return "methods_agree";
+  return "same_settings";
 }
 
 }  // namespace vibratory_alignment::hunt

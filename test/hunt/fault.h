@@ -16,9 +16,11 @@ enum class Invariant {
   losses,           ///< energy leaves through dampers and friction, it does not come in through them
   mirror,           ///< the mirrored scene gives the mirrored answer
   output_rate,      ///< how often the motion is looked at changes no bit of it
-  methods_agree     ///< `implicit` and `auto` give the answer of `event`
+  methods_agree,    ///< `implicit` and `auto` give the answer of `event`
+  cuts,             ///< cut, and cut again, the motion goes on as it would have
+  same_settings     ///< changes to what is there already change nothing
 };
-constexpr int kInvariantCount = 11;
+constexpr int kInvariantCount = 13;
 
 const char* to_string(Invariant invariant);
 

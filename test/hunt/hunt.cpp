@@ -4,6 +4,7 @@
 #include <ctime>
 #include <utility>
 
+#include "random_changes.h"
 #include "trace.h"
 
 namespace vibratory_alignment::hunt {
@@ -21,12 +22,13 @@ void allow_open_fault(Verdict& verdict) {
 
 }  // namespace
 
-Scene scene_of(std::uint64_t seed, const HuntOptions& options) {
+Trial trial_of(std::uint64_t seed, const HuntOptions& options) {
   Scene scene = random_scene(seed, options.range);
   scene.solver.name = options.solver;
   if (takes_implicit_steps(scene))
     scene.solver.tolerance = std::clamp(scene.solver.tolerance, kLeastImplicitTolerance, kMostImplicitTolerance);
-  return scene;
+  if (!options.changes) return scene;
+  return {scene, random_changes(seed, scene)};
 }
 
 Hunt::Hunt(const HuntOptions& options, OnFailure on_failure)
@@ -45,7 +47,7 @@ void Hunt::work(Worker& worker) {
     const std::uint64_t seed = options_.from + static_cast<std::uint64_t>(i);
     worker.started = cpu_time_s();
     worker.seed = static_cast<std::int64_t>(seed);
-    Verdict verdict = judge(scene_of(seed, options_), options_.range);
+    Verdict verdict = judge(trial_of(seed, options_), options_.range);
     if (std::find(options_.open.begin(), options_.open.end(), seed) != options_.open.end()) allow_open_fault(verdict);
     worker.seed = -1;
     {

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "changes.h"
 #include "random_scene.h"
 #include "tally.h"
 
@@ -21,11 +22,12 @@ struct HuntOptions {
   long count = 10000;
   int threads = 1;
   std::string solver = "event";
+  bool changes = false;             ///< random ones in every trial
   std::vector<std::uint64_t> open;  ///< seeds with a fault that is known; a failure only once it is mended
 };
 
-/// The random scene of a seed, for the solver asked.
-Scene scene_of(std::uint64_t seed, const HuntOptions& options);
+/// The random trial of a seed, for the solver asked.
+Trial trial_of(std::uint64_t seed, const HuntOptions& options);
 
 /// Runs in the background from its construction on.
 class Hunt {

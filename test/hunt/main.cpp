@@ -29,6 +29,7 @@ constexpr int kShrinkTrials = 600;
 constexpr char kFooter[] = R"(Examples:
   hunt                                            10000 ordinary scenes
   hunt --range wild --count 1000000 --threads 2 --keep found
+  hunt --changes                                  ... cut and changed while they run
   hunt --range wild --from 1234 --count 1         one seed again
   hunt --range wild --scene found/wild_1234_mirror.yaml      a scene that was kept
   hunt --range wild --show 1234                   print the scene of a seed
@@ -49,12 +50,12 @@ std::string faults_text(const Verdict& verdict) {
   return text;
 }
 
-/// The scene, made as simple as it can be while the first fault stays, as a scene file with the faults as its head.
-std::string shrunk_text(const Scene& scene, Range range, const Verdict& verdict) {
+/// The trial, made as simple as it can be while the first fault stays, as a scene file with the faults as its head.
+std::string shrunk_text(const Trial& trial, Range range, const Verdict& verdict) {
   const Invariant broken = verdict.faults.front().invariant;
-  const Scene simple = shrink(
-      scene, [&](const Scene& s) { return judge(s, range).breaks(broken); }, kShrinkTrials);
-  return faults_text(judge(simple, range)) + scene_text(simple);
+  const Trial simple = shrink(
+      trial, [&](const Trial& t) { return judge(t, range).breaks(broken); }, kShrinkTrials);
+  return faults_text(judge(simple, range)) + trial_text(simple);
 }
 
 class FailureReport {
@@ -69,7 +70,7 @@ class FailureReport {
     std::ostringstream text;
     text << "\nFAILED: seed " << seed << " (" << range << ")\n" << faults_text(verdict);
     if (count_++ < options_.shrunk) {
-      const std::string scene = shrunk_text(scene_of(seed, options_.hunt), options_.hunt.range, verdict);
+      const std::string scene = shrunk_text(trial_of(seed, options_.hunt), options_.hunt.range, verdict);
       text << "--- shrunk\n" << scene;
       if (!options_.keep.empty()) {
         const std::string path = options_.keep + "/" + range + "_" + std::to_string(seed) + "_" + invariant + ".yaml";
@@ -88,7 +89,7 @@ class FailureReport {
 };
 
 int judge_file(const std::string& path, Range range) {
-  const Verdict verdict = judge(load_scene_file(path), range);
+  const Verdict verdict = judge(load_trial_file(path), range);
   std::cout << faults_text(verdict) << (verdict.faults.empty() ? "every invariant held" : "FAILED")
             << (verdict.has_start ? "" : " (no start: nothing ran)")
             << (verdict.refusal.empty() ? "" : " (the solver gave up: " + verdict.refusal + ")")
@@ -138,6 +139,8 @@ int main(int argc, char** argv) {
   app.add_option("--solver", options.hunt.solver, "Solver; all others are compared with event")
       ->check(CLI::IsMember({"event", "implicit", kImplicitAlone, "auto"}))
       ->capture_default_str();
+  app.add_flag("--changes", options.hunt.changes,
+               "Cut every trial at random instants, and change excitations and press");
   app.add_option("--threads", options.hunt.threads, "Threads")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--keep", options.keep, "Write every shrunk scene that fails to this directory")->type_name("DIR");
   app.add_option("--shrink", options.shrunk, "Shrink this many of the scenes that fail")
@@ -155,7 +158,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (options.show) {
-      std::cout << hunt::scene_text(hunt::scene_of(*options.show, options.hunt));
+      std::cout << hunt::trial_text(hunt::trial_of(*options.show, options.hunt));
       return 0;
     }
     return options.scene.empty() ? hunt::run(options) : hunt::judge_file(options.scene, options.hunt.range);

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "model/scene_loader.h"
+
 namespace vibratory_alignment::hunt {
 namespace {
 
@@ -76,6 +78,42 @@ std::string excitation_text(const Excitation& e) {
   return flow.text();
 }
 
+std::vector<Excitation> at_least_one(const std::vector<Excitation>& excitations) {
+  if (!excitations.empty()) return excitations;
+  Excitation none;
+  none.frequency = 1.0;
+  return {none};
+}
+
+std::string list_text(const std::vector<Excitation>& excitations) {
+  std::string text;
+  for (const Excitation& e : at_least_one(excitations)) text += (text.empty() ? "" : ", ") + excitation_text(e);
+  return "[" + text + "]";
+}
+
+std::string change_text(const Change& change) {
+  Flow flow;
+  flow.put("time", change.time);
+  if (change.excitations) flow.put("excitation", list_text(*change.excitations));
+  flow.put("pressing_force", change.pressing_force);
+  if (change.cut_late) flow.put("cut_late", "true");
+  return flow.text();
+}
+
+/// `scene`: the tree whose excitations are changed.
+Change read_change(const YAML::Node& change, const YAML::Node& scene, const std::string& path) {
+  Change c;
+  c.time = change["time"].as<double>();
+  if (const YAML::Node excitation = change["excitation"]) {
+    YAML::Node tree = scene;
+    set_value(tree, "excitation", excitation, path);
+    c.excitations = load_scene(tree, path).excitations;
+  }
+  if (const YAML::Node press = change["pressing_force"]) c.pressing_force = press.as<double>();
+  if (const YAML::Node late = change["cut_late"]) c.cut_late = late.as<bool>();
+  return c;
+}
+
 }  // namespace
 
 std::string scene_text(const Scene& s) {
@@ -102,11 +140,8 @@ std::string scene_text(const Scene& s) {
         "friction",
         Flow().put("coefficient", s.friction->coefficient).put("regularization", s.friction->regularization).text());
   section("weight", number(s.weight));
-  Excitation none;
-  none.frequency = 1.0;
   text += "excitation:\n";
-  for (const Excitation& e : s.excitations.empty() ? std::vector<Excitation>{none} : s.excitations)
-    text += "  - " + excitation_text(e) + "\n";
+  for (const Excitation& e : at_least_one(s.excitations)) text += "  - " + excitation_text(e) + "\n";
   section("initial", initial.text());
   section("trial", trial.text());
   section("solver", Flow()
@@ -115,6 +150,26 @@ std::string scene_text(const Scene& s) {
                         .put("step_limit", std::to_string(s.solver.step_limit))
                         .text());
   return text;
+}
+
+std::string trial_text(const Trial& trial) {
+  std::string text = scene_text(trial.scene);
+  if (!trial.changes.empty()) text += "changes:\n";
+  for (const Change& change : trial.changes) text += "  - " + change_text(change) + "\n";
+  return text;
+}
+
+Trial load_trial_file(const std::string& path) {
+  YAML::Node tree = read_yaml_file(path);
+  const YAML::Node changes = tree["changes"];
+  tree.remove("changes");
+  Trial trial = load_scene(tree, path);
+  try {
+    for (const YAML::Node& change : changes) trial.changes.push_back(read_change(change, tree, path));
+  } catch (const YAML::Exception& error) {
+    throw SceneError(path, {"changes: " + error.msg});
+  }
+  return trial;
 }
 
 }  // namespace vibratory_alignment::hunt

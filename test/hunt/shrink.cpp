@@ -9,12 +9,15 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
-/// Changes the scene; false if there is nothing to change.
-using Step = std::function<bool(Scene&)>;
+/// Makes the trial simpler; false if there is nothing to take out.
+using Step = std::function<bool(Trial&)>;
+
+/// The same for what concerns the scene alone.
+using SceneStep = std::function<bool(Scene&)>;
 
 /// Takes an optional value out.
 template <class Value>
-Step dropped(std::optional<Value>& (*part)(Scene&)) {
+SceneStep dropped(std::optional<Value>& (*part)(Scene&)) {
   return [part](Scene& s) {
     if (!part(s)) return false;
     part(s).reset();
@@ -22,7 +25,7 @@ Step dropped(std::optional<Value>& (*part)(Scene&)) {
   };
 }
 
-Step switched_off(bool& (*flag)(Scene&)) {
+SceneStep switched_off(bool& (*flag)(Scene&)) {
   return [flag](Scene& s) {
     if (!flag(s)) return false;
     flag(s) = false;
@@ -33,7 +36,7 @@ Step switched_off(bool& (*flag)(Scene&)) {
 /// A number that a scene may lack.
 using Number = std::function<double*(Scene&)>;
 
-Step set_to(const Number& number, double value) {
+SceneStep set_to(const Number& number, double value) {
   return [number, value](Scene& s) {
     double* const place = number(s);
     if (place == nullptr || *place == value) return false;
@@ -42,7 +45,7 @@ Step set_to(const Number& number, double value) {
   };
 }
 
-Step rounded_to(const Number& number, int digits) {
+SceneStep rounded_to(const Number& number, int digits) {
   return [number, digits](Scene& s) {
     double* const place = number(s);
     if (place == nullptr) return false;
@@ -55,27 +58,86 @@ Step rounded_to(const Number& number, int digits) {
   };
 }
 
-Step trial_shortened(double factor) {
+SceneStep trial_shortened(double factor) {
   return [factor](Scene& s) {
     s.trial.time_limit *= factor;
     return s.trial.time_limit > 1e-12;
   };
 }
 
+/// That of the scene, and those that it is changed to.
+template <class Look>
+void for_each_list(Trial& trial, const Look& look) {
+  look(trial.scene.excitations);
+  for (Change& change : trial.changes)
+    if (change.excitations) look(*change.excitations);
+}
+
 Step excitation_dropped(std::size_t index) {
-  return [index](Scene& s) {
-    if (s.excitations.size() <= index) return false;
-    s.excitations.erase(s.excitations.begin() + static_cast<std::ptrdiff_t>(index));
+  return [index](Trial& t) {
+    if (t.scene.excitations.size() <= index) return false;
+    for_each_list(t, [&](std::vector<Excitation>& list) {
+      if (list.size() > index) list.erase(list.begin() + static_cast<std::ptrdiff_t>(index));
+    });
     return true;
   };
 }
 
 Step excitation_made_sine(std::size_t index) {
-  return [index](Scene& s) {
-    if (s.excitations.size() <= index || s.excitations[index].waveform == Waveform::sine) return false;
-    s.excitations[index].waveform = Waveform::sine;
+  return [index](Trial& t) {
+    bool others = false;
+    for_each_list(t, [&](std::vector<Excitation>& list) {
+      if (list.size() <= index || list[index].waveform == Waveform::sine) return;
+      list[index].waveform = Waveform::sine;
+      others = true;
+    });
+    return others;
+  };
+}
+
+Step change_dropped(std::size_t index) {
+  return [index](Trial& t) {
+    if (t.changes.size() <= index) return false;
+    t.changes.erase(t.changes.begin() + static_cast<std::ptrdiff_t>(index));
     return true;
   };
+}
+
+template <class Value>
+Step taken_out_of_change(std::size_t index, Value Change::*part) {
+  return [index, part](Trial& t) {
+    if (t.changes.size() <= index || !(t.changes[index].*part)) return false;
+    t.changes[index].*part = Value{};
+    return true;
+  };
+}
+
+/// One setting of an excitation that is changed, as it was before.
+Step setting_kept(std::size_t index, std::size_t excitation, double Excitation::*setting) {
+  return [=](Trial& t) {
+    if (t.changes.size() <= index || !t.changes[index].excitations) return false;
+    std::vector<Excitation>& list = *t.changes[index].excitations;
+    if (list.size() <= excitation) return false;
+    const double before = t.scene.excitations[excitation].*setting;
+    if (list[excitation].*setting == before) return false;
+    list[excitation].*setting = before;
+    return true;
+  };
+}
+
+/// Of more changes those beyond are looked at when the ones before are dropped.
+constexpr std::size_t kChanges = 8;
+
+void add_steps_of_changes(std::vector<Step>& steps) {
+  for (std::size_t i = kChanges; i-- > 0;) steps.push_back(change_dropped(i));
+  for (std::size_t i = 0; i < kChanges; ++i) {
+    steps.push_back(taken_out_of_change(i, &Change::excitations));
+    steps.push_back(taken_out_of_change(i, &Change::pressing_force));
+    steps.push_back(taken_out_of_change(i, &Change::cut_late));
+    for (const std::size_t excitation : {0u, 1u, 2u})
+      for (double Excitation::*const setting : {&Excitation::amplitude, &Excitation::frequency, &Excitation::phase})
+        steps.push_back(setting_kept(i, excitation, setting));
+  }
 }
 
 bool walls_dropped(Scene& s) {
@@ -156,12 +218,10 @@ std::vector<Number> needed_numbers() {
   return numbers;
 }
 
-std::vector<Step> all_steps() {
-  std::vector<Step> steps;
+std::vector<SceneStep> scene_steps() {
+  std::vector<SceneStep> steps;
   for (const double factor : {0.1, 0.5, 0.8}) steps.push_back(trial_shortened(factor));
   steps.push_back(dropped<Friction>([](Scene& s) -> std::optional<Friction>& { return s.friction; }));
-  for (const std::size_t i : {2u, 1u, 0u}) steps.push_back(excitation_dropped(i));
-  for (const std::size_t i : {0u, 1u, 2u}) steps.push_back(excitation_made_sine(i));
   steps.push_back(walls_dropped);
   steps.push_back(switched_off([](Scene& s) -> bool& { return s.contacts.corners; }));
   steps.push_back(switched_off([](Scene& s) -> bool& { return s.contacts.edges; }));
@@ -186,24 +246,33 @@ std::vector<Step> all_steps() {
   return steps;
 }
 
+std::vector<Step> all_steps() {
+  std::vector<Step> steps;
+  add_steps_of_changes(steps);
+  for (const std::size_t i : {2u, 1u, 0u}) steps.push_back(excitation_dropped(i));
+  for (const std::size_t i : {0u, 1u, 2u}) steps.push_back(excitation_made_sine(i));
+  for (const SceneStep& step : scene_steps()) steps.push_back([step](Trial& t) { return step(t.scene); });
+  return steps;
+}
+
 bool calls_for_contact(const Scene& s) { return s.contacts.edges || s.contacts.corners || s.contacts.walls; }
 
 }  // namespace
 
-Scene shrink(Scene scene, const std::function<bool(const Scene&)>& still_fails, int trials) {
+Trial shrink(Trial trial, const std::function<bool(const Trial&)>& still_fails, int trials) {
   const std::vector<Step> steps = all_steps();
   for (bool simpler = true; simpler;) {
     simpler = false;
     for (const Step& step : steps) {
-      Scene candidate = scene;
-      if (!step(candidate) || !calls_for_contact(candidate)) continue;
-      if (--trials < 0) return scene;
+      Trial candidate = trial;
+      if (!step(candidate) || !calls_for_contact(candidate.scene)) continue;
+      if (--trials < 0) return trial;
       if (!still_fails(candidate)) continue;
-      scene = candidate;
+      trial = candidate;
       simpler = true;
     }
   }
-  return scene;
+  return trial;
 }
 
 }  // namespace vibratory_alignment::hunt

@@ -98,6 +98,12 @@ TEST_F(DoctoredAnswer, that_settles_at_another_time) {
   other.result.final_time += 0.1;
   EXPECT_EQ(difference(system_, trace_, other, Compared::places), 0.0);
   EXPECT_GT(difference(system_, trace_, other, Compared::places_and_rates), 0.01);
+  // or is not seen to before the time limit, when the watch has been restarted
+  other.result.outcome = Outcome::time_limit;
+  EXPECT_EQ(difference(system_, trace_, other, Compared::places), INFINITY);
+  EXPECT_EQ(difference(system_, trace_, other, Compared::places_but_settling), 0.0);
+  other.touches.front().state.x += 1.0;
+  EXPECT_GT(difference(system_, trace_, other, Compared::places_but_settling), 0.01);
 }
 
 // A time says as little as the way that the part goes in it, but no less.

@@ -19,8 +19,9 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
-Tally tally_of(Range range, int threads, long count) {
+Tally tally_of(Range range, int threads, long count, bool changes = false) {
   HuntOptions options;
+  options.changes = changes;
   options.range = range;
   options.count = count;
   options.threads = threads;
@@ -39,6 +40,12 @@ TEST(Hunt, gives_the_same_bits_in_any_number_of_threads) {
     EXPECT_EQ(alone.scenes, 60);
     EXPECT_EQ(together.scenes, 60);
   }
+}
+
+TEST(Hunt, with_changes_gives_other_answers_and_the_same_bits_in_any_number_of_threads) {
+  const Tally alone = tally_of(Range::ordinary, 1, 60, true), together = tally_of(Range::ordinary, 3, 60, true);
+  EXPECT_EQ(alone.digest, together.digest);
+  EXPECT_NE(alone.digest, tally_of(Range::ordinary, 1, 60).digest);
 }
 
 // A force whose series is cut off where it hardly matters to the motion, rates that are compared while the part is at

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "model/scene_loader.h"
+#include "scene_text.h"
 #include "trial/make_solver.h"
 #include "verdict.h"
 
@@ -34,7 +34,7 @@ TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
   for (const auto& entry : std::filesystem::directory_iterator(OPEN_FAULTS)) {
     const std::string known = known_fault(entry.path()), name = entry.path().stem();
     ASSERT_FALSE(known.empty()) << name;
-    const Verdict verdict = judge(load_scene_file(entry.path()), Range::wild);
+    const Verdict verdict = judge(load_trial_file(entry.path()), Range::wild);
     EXPECT_TRUE(verdict.has_start) << name;
     if (known != "refused") {
       EXPECT_TRUE(is_invariant(known)) << name << ": " << known;
@@ -48,11 +48,11 @@ TEST(OpenFaults, are_no_worse_than_they_are_said_to_be) {
 TEST(MendedFaults, break_nothing_any_more) {
   int seen = 0;
   for (const auto& entry : std::filesystem::directory_iterator(MENDED_FAULTS)) {
-    Scene scene = load_scene_file(entry.path());
-    const std::string found_with = scene.solver.name;
+    Trial trial = load_trial_file(entry.path());
+    const std::string found_with = trial.scene.solver.name;
     for (const char* solver : {"event", "implicit", "auto", kImplicitAlone}) {
-      scene.solver.name = solver;
-      const Verdict verdict = judge(scene, Range::wild);
+      trial.scene.solver.name = solver;
+      const Verdict verdict = judge(trial, Range::wild);
       EXPECT_TRUE(verdict.has_start);
       // others may take more steps than the hunt allows
       const bool may_refuse = solver != found_with && verdict.refusal == "step limit";

@@ -103,14 +103,17 @@ double speed_of(const System& system, const State& q) {
   return std::abs(q.vx) + std::abs(q.vy) + std::abs(q.omega) * (system.half_width + system.base_distance);
 }
 
-Trace run_trial(const Scene& scene, bool checked, double uncertain) {
+Trace run_trial(const Trial& trial, bool checked, double uncertain) {
+  const Scene& scene = trial.scene;
   Trace trace;
   Simulation simulation(scene);
-  const System system = make_system(scene);
+  Changer changer(trial.changes);
+  const System& system = simulation.system();
   const double size = system.half_width + system.base_distance, unseen = uncertain * scene.solver.tolerance * size;
   Hops hops(system);
   double way_since_touch = INFINITY;  // at most
   while (simulation.advance()) {
+    changer.make_due(simulation);
     const Segment& segment = simulation.segment();
     if (uncertain > 0.0) hops.follow(segment);
     trace.energy_noise += energy_noise(system, segment);
@@ -133,12 +136,13 @@ Trace run_trial(const Scene& scene, bool checked, double uncertain) {
   return trace;
 }
 
-TrialResult run_sampled(const Scene& scene, double interval, bool with_events) {
-  Simulation simulation(scene);
+TrialResult run_sampled(const Trial& trial, double interval, bool with_events) {
+  Simulation simulation(trial.scene);
+  Changer changer(trial.changes);
   Sampler sampler(simulation, interval, with_events);
   Sample sample;
-  while (sampler.next(sample)) {
-  }
+  while (!sampler.finished())
+    if (!sampler.next(sample, {}, changer.next_time()) && !sampler.finished()) changer.make_due(simulation);
   return simulation.result();
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "changes.h"
 #include "fault.h"
 #include "mechanics/system.h"
 #include "model/scene.h"
@@ -39,13 +40,13 @@ bool takes_implicit_steps(const Scene& scene);
 /// Runs the trial; `checked`: every segment is held against the invariants. `uncertain` > 0: what is shorter or lower
 /// than so many tolerances, times the part's size, is not seen: touches between which the part goes no farther count as
 /// one, those after such a hop not at all.
-Trace run_trial(const Scene& scene, bool checked, double uncertain);
-inline Trace run_trial(const Scene& scene, bool checked) {
-  return run_trial(scene, checked, takes_implicit_steps(scene) ? 1.0 : 0.0);
+Trace run_trial(const Trial& trial, bool checked, double uncertain);
+inline Trace run_trial(const Trial& trial, bool checked) {
+  return run_trial(trial, checked, takes_implicit_steps(trial.scene) ? 1.0 : 0.0);
 }
 
 /// Runs the trial while it is sampled at this interval, with or without its events.
-TrialResult run_sampled(const Scene& scene, double interval, bool with_events);
+TrialResult run_sampled(const Trial& trial, double interval, bool with_events);
 
 /// All bits of the answer in one number.
 std::uint64_t digest(const TrialResult& result);

@@ -29,14 +29,15 @@ constexpr double kUncertain = 10.0;
 
 /// The start moved in its last digits, or by what the solver's tolerance cuts off; `part` of it, from -1 to 1. It may
 /// take more steps: a trial that is refused says nothing of how far its end has moved.
-Scene nudged(Scene s, double part) {
+Trial nudged(Trial trial, double part) {
+  Scene& s = trial.scene;
   s.solver.step_limit *= kMoreSteps;
   const double share = part * (1e-13 + 1e-2 * s.solver.tolerance);
   s.initial.x += share * (std::abs(s.initial.x) + s.part.half_width);
   if (s.initial.y) *s.initial.y += share * (std::abs(*s.initial.y) + s.part.base_distance);
   if (s.initial.phi) *s.initial.phi += share;
   s.initial.vy += share * (std::abs(s.initial.vy) + 1.0);
-  return s;
+  return trial;
 }
 
 /// Answers that are to be the same, and how.
@@ -51,60 +52,81 @@ struct Pair {
 };
 
 /// How far the trial answers to its last digits; infinite if a touch comes or goes.
-double sensitivity(const System& system, const Scene& scene, const Pair& pair) {
+double sensitivity(const System& system, const Trial& trial, const Pair& pair) {
   double largest = 0.0;
   for (int n = 1; n <= kNudges / 2; ++n)
     for (const double sign : {1.0, -1.0}) {
-      const Trace moved = run_trial(nudged(scene, sign * 2.0 * n / kNudges), false, pair.uncertain);
+      const Trace moved = run_trial(nudged(trial, sign * 2.0 * n / kNudges), false, pair.uncertain);
       largest = std::max(largest, difference(system, pair.trace, moved, pair.compared));
     }
   return largest;
 }
 
 /// A fault where the two are further apart than is allowed, and than starts that differ in the last digits make them.
-void compare(const Scene& scene, const System& system, const Pair& pair, Verdict& verdict) {
+void compare(const Trial& trial, const System& system, const Pair& pair, Verdict& verdict) {
   const double apart = pair.apart(system);
   if (apart <= pair.allowed) return;
-  const double own = sensitivity(system, scene, pair);
+  const double own = sensitivity(system, trial, pair);
   if (own > kChaos || apart <= 100.0 * own)
     verdict.sensitive = true;
   else
     verdict.faults.push_back({pair.invariant, "difference = " + number_text(rounded(apart, 3))});
 }
 
-void compare_with_mirror_image(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
-  const double uncertain = takes_implicit_steps(scene) ? 1.0 : 0.0;
-  const Trace image = mirrored(run_trial(test::mirrored(scene), false));
-  compare(scene, system,
-          {trace, image, uncertain, Compared::places_and_rates, 1e-9 + scene.solver.tolerance, Invariant::mirror},
+void compare_with_mirror_image(const Trial& trial, const System& system, const Trace& trace, Verdict& verdict) {
+  const double uncertain = takes_implicit_steps(trial.scene) ? 1.0 : 0.0;
+  const Trace image = mirrored(run_trial(mirrored(trial), false));
+  compare(trial, system,
+          {trace, image, uncertain, Compared::places_and_rates, 1e-9 + trial.scene.solver.tolerance, Invariant::mirror},
           verdict);
 }
 
-/// A difference counts where it is there as well when more is uncertain.
-void compare_with_event(const Scene& scene, const System& system, const Trace& trace, Verdict& verdict) {
-  Scene by_event = scene;
-  by_event.solver.name = "event";
-  by_event.solver.step_limit *= kMoreSteps;
-  const double allowed = 1e-9 + kStepErrors * scene.solver.tolerance;
+/// Another way to the same motion, by other steps. A difference counts where it is there as well when more is
+/// uncertain. `trace`: of the trial, run with 1 of it.
+void compare_by_places(const Trial& trial, const System& system, const Trace& trace, const Trial& other,
+                       Invariant invariant, Verdict& verdict) {
+  const double allowed = 1e-9 + kStepErrors * trial.scene.solver.tolerance;
+  const Compared compared = invariant == Invariant::same_settings ? Compared::places_but_settling : Compared::places;
   const auto pair_with = [&](const Trace& own, double uncertain) {
-    const Trace other = run_trial(by_event, false, uncertain);
-    return Pair{own, other, uncertain, Compared::places, allowed, Invariant::methods_agree};
+    return Pair{own, run_trial(other, false, uncertain), uncertain, compared, allowed, invariant};
   };
   const Pair pair = pair_with(trace, 1.0);
   if (pair.apart(system) > allowed)
-    compare(scene, system, pair_with(run_trial(scene, false, kUncertain), kUncertain), verdict);
+    compare(trial, system, pair_with(run_trial(trial, false, kUncertain), kUncertain), verdict);
+}
+
+void compare_with_event(const Trial& trial, const System& system, const Trace& trace, Verdict& verdict) {
+  Trial by_event = trial;
+  by_event.scene.solver.name = "event";
+  by_event.scene.solver.step_limit *= kMoreSteps;
+  compare_by_places(trial, system, trace, by_event, Invariant::methods_agree, verdict);
+}
+
+/// The trial cut where it is changed, and set to what it is, is the one that is left alone; and so is it where changes
+/// are made late, and cut again, the one where they are not.
+void compare_with_cut(const Trial& trial, const System& system, Verdict& verdict) {
+  Trial cut = trial, set = trial, late = trial;
+  for (Change& change : cut.changes) change.excitations = {}, change.pressing_force = {};
+  for (Change& change : set.changes) {
+    change.excitations = trial.scene.excitations;
+    change.pressing_force = trial.scene.gripper.pressing_force;
+  }
+  compare_by_places(cut, system, run_trial(cut, false, 1.0), trial.scene, Invariant::cuts, verdict);
+  for (Change& change : late.changes) change.cut_late = !change.cut_late;
+  compare_by_places(late, system, run_trial(late, false, 1.0), trial, Invariant::cuts, verdict);
+  compare_by_places(set, system, run_trial(set, false, 1.0), trial.scene, Invariant::same_settings, verdict);
 }
 
 /// Some rate that no two scenes share.
-void compare_with_sampled(const Scene& scene, const Trace& trace, Verdict& verdict) {
+void compare_with_sampled(const Trial& trial, const Trace& trace, Verdict& verdict) {
   Dice dice(trace.result.counts.steps);
-  const double interval = scene.trial.time_limit / dice.uniform(3.0, 100.0);
-  if (const auto fault = check_same(trace.result, run_sampled(scene, interval, dice.chance(0.5))))
+  const double interval = trial.scene.trial.time_limit / dice.uniform(3.0, 100.0);
+  if (const auto fault = check_same(trace.result, run_sampled(trial, interval, dice.chance(0.5))))
     verdict.faults.push_back(*fault);
 }
 
-void judge_trial(const Scene& scene, const System& system, Range range, Verdict& verdict) {
-  const Trace trace = run_trial(scene, true);
+void judge_trial(const Trial& trial, const System& system, Range range, Verdict& verdict) {
+  const Trace trace = run_trial(trial, true);
   verdict.outcome = trace.result.outcome;
   verdict.digest = digest(trace.result);
   verdict.refusal = refusal(trace.result);
@@ -114,10 +136,11 @@ void judge_trial(const Scene& scene, const System& system, Range range, Verdict&
     verdict.faults.push_back(*fault);
     return;
   }
-  if (const auto fault = check_energy(scene, trace)) verdict.faults.push_back(*fault);
-  compare_with_sampled(scene, trace, verdict);
-  compare_with_mirror_image(scene, system, trace, verdict);
-  if (takes_implicit_steps(scene)) compare_with_event(scene, system, trace, verdict);
+  if (const auto fault = check_energy(trial.scene, trace)) verdict.faults.push_back(*fault);
+  compare_with_sampled(trial, trace, verdict);
+  compare_with_mirror_image(trial, system, trace, verdict);
+  if (takes_implicit_steps(trial.scene)) compare_with_event(trial, system, trace, verdict);
+  if (!trial.changes.empty()) compare_with_cut(trial, system, verdict);
 }
 
 }  // namespace
@@ -126,10 +149,10 @@ bool Verdict::breaks(Invariant invariant) const {
   return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.invariant == invariant; });
 }
 
-Verdict judge(const Scene& scene, Range range) {
+Verdict judge(const Trial& trial, Range range) {
   Verdict verdict;
   try {
-    judge_trial(scene, make_system(scene), range, verdict);
+    judge_trial(trial, make_system(trial.scene), range, verdict);
   } catch (const SceneError&) {
     verdict.has_start = false;
   } catch (const std::exception& error) {

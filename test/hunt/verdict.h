@@ -1,12 +1,13 @@
-// The verdict on one scene: its trial is run as it is, sampled at some other rate, and mirrored.
+// The verdict on one trial: it is run as it is, sampled at some other rate, mirrored, and where it is changed on its
+// way also only cut there, and set to what it is.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "changes.h"
 #include "fault.h"
-#include "model/scene.h"
 #include "random_scene.h"
 #include "trial/outcome.h"
 
@@ -25,6 +26,6 @@ struct Verdict {
 };
 
 /// Never throws.
-Verdict judge(const Scene& scene, Range range);
+Verdict judge(const Trial& trial, Range range);
 
 }  // namespace vibratory_alignment::hunt

@@ -1,11 +1,19 @@
 // The mirror image of scenes, states and sites: left and right exchanged.
 #pragma once
 
+#include <vector>
+
 #include "mechanics/contact.h"
 #include "mechanics/state.h"
 #include "model/scene.h"
 
 namespace vibratory_alignment::test {
+
+inline std::vector<Excitation> mirrored(std::vector<Excitation> excitations) {
+  for (Excitation& e : excitations)
+    if (e.direction != Direction::y) e.amplitude = -e.amplitude;
+  return excitations;
+}
 
 inline Scene mirrored(Scene s) {
   s.initial.x = -s.initial.x;
@@ -14,8 +22,7 @@ inline Scene mirrored(Scene s) {
   if (s.initial.phi) s.initial.phi = -*s.initial.phi;
   s.gripper.anchor_x = -s.gripper.anchor_x;
   s.gripper.anchor_phi = -s.gripper.anchor_phi;
-  for (Excitation& e : s.excitations)
-    if (e.direction != Direction::y) e.amplitude = -e.amplitude;
+  s.excitations = mirrored(s.excitations);
   return s;
 }
 
