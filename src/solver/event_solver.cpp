@@ -195,9 +195,9 @@ double EventSolver::crossing_time(double found, const Event& event) const {
   };
   const ContactKinematics k = point_at(found);
   const double correction = -k.depth / k.depth_rate;
-  // a graze has no rate to divide by, or one of rounding, which leads away
-  if (!(std::abs(correction) <= kMostCrossingCorrection * segment_.duration)) return found;
-  const double corrected = std::clamp(found + correction, 0.0, segment_.duration);
+  // a graze has no rate to divide by, or one of rounding, which leads away, or back to where the point left the face
+  if (!(std::abs(correction) <= kMostCrossingCorrection * segment_.duration) || correction <= -found) return found;
+  const double corrected = std::min(found + correction, segment_.duration);
   return std::abs(point_at(corrected).depth) <= std::abs(k.depth) ? corrected : found;
 }
 
