@@ -68,8 +68,10 @@ std::optional<double> balanced_height(const System& system, double x, double phi
   const auto lift = [&](double y) { return static_load(system, x, y, phi).force_y; };
   const double load = -lift(top);
   if (load <= 0.0) return std::nullopt;
-  // the way in which one contact carries the load where the base is stiffest; double it until the part is pushed up
-  double way = std::max(load / std::max(system.stiffness_x, system.stiffness_y), kShortestWay);
+  // no shorter way carries it, where every site touches the base where it is stiffest: double it until the part is
+  // pushed up
+  const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
+  double way = std::max(load / most_stiffness, kShortestWay);
   while (lift(top - way) < 0.0) {
     way *= 2.0;
     if (way > 1e9) return std::nullopt;
