@@ -6,7 +6,8 @@
 // stiffness and damping ratio. Then random scenes of the hunt (test/hunt), of which the table has only those above the
 // ratio allowed. The three solvers take turns, so that what else the computer does meets all of them alike. A time is
 // the least of the turns; the ratio is the median of those within one turn, for the clock of a computer may change
-// between two speeds, and does not do so for each solver at once.
+// between two speeds, and does not do so for each solver at once. The time is that of a trial as a sweep runs it, from
+// the scene to the outcome; of the steps alone, which the solver decides on, there is a ratio of its own.
 // `> step limit`: more than a million steps, a hundred thousand in random scenes. **: the ratio is above 1.3.
 // Usage: auto_choice TOLERANCE SCENE_FILE ...
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
@@ -115,14 +117,30 @@ std::vector<Case> built_in_cases() {
   return cases;
 }
 
+/// CPU time of a turn in seconds; infinite where it was not taken, or the clock stood still.
+struct Turn {
+  double trial = HUGE_VAL, steps = HUGE_VAL;
+};
+
 struct Measured {
-  std::vector<double> seconds;  ///< of each turn; infinite where it was not taken, or the clock stood still
+  std::vector<Turn> turns;
   std::string failure;
   long steps = 0;
 
-  double least() const { return seconds.empty() ? HUGE_VAL : *std::min_element(seconds.begin(), seconds.end()); }
+  /// Of a trial.
+  double least() const {
+    double least = HUGE_VAL;
+    for (const Turn& turn : turns) least = std::min(least, turn.trial);
+    return least;
+  }
   bool usable() const { return failure.empty() && least() < HUGE_VAL; }
 };
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 void take_turn(const va::Scene& scene, const char* solver, double tolerance, Measured& measured) {
   va::Scene s = scene;
@@ -131,13 +149,15 @@ void take_turn(const va::Scene& scene, const char* solver, double tolerance, Mea
   s.solver.step.reset();
   va::SimulationOptions options;
   options.energy = false;
+  const double start = cpu_seconds();
   va::Simulation simulation(s, options);
   while (simulation.advance()) {
   }
   const va::TrialResult result = simulation.result();
+  const double trial = cpu_seconds() - start;
   measured.failure = result.failure;
   measured.steps = result.counts.steps;
-  if (result.cpu_seconds > 0.0) measured.seconds.back() = result.cpu_seconds;
+  if (result.cpu_seconds > 0.0) measured.turns.back() = {trial, result.cpu_seconds};
 }
 
 using Measurement = std::array<Measured, kSolvers.size()>;
@@ -151,11 +171,11 @@ void take_turns(const va::Scene& scene, double tolerance, double seconds, Measur
       if (m.usable()) best = std::min(best, m.least());
     for (std::size_t i = 0; i < all.size(); ++i) {
       Measured& m = all[i];
-      m.seconds.push_back(HUGE_VAL);
+      m.turns.emplace_back();
       if (turn > 0 && !m.failure.empty()) continue;
       if (turn >= kTurnsOfAll && m.usable() && m.least() > kHopeless * best) continue;
       take_turn(scene, kSolvers[i], tolerance, m);
-      if (m.seconds.back() < HUGE_VAL) spent += m.seconds.back();
+      if (m.turns.back().trial < HUGE_VAL) spent += m.turns.back().trial;
     }
   }
 }
@@ -169,12 +189,14 @@ double better(const Measurement& all) {
 }
 
 /// Of the time of `auto` to that of the better of the others: the median over the turns.
-double ratio_of(const Measurement& all) {
+double ratio_of(const Measurement& all, double Turn::*time = &Turn::trial) {
   std::vector<double> ratios;
-  for (std::size_t turn = 0; all[2].usable() && turn < all[2].seconds.size(); ++turn) {
-    const double best =
-        std::min(all[0].usable() ? all[0].seconds[turn] : HUGE_VAL, all[1].usable() ? all[1].seconds[turn] : HUGE_VAL);
-    if (best < HUGE_VAL && all[2].seconds[turn] < HUGE_VAL) ratios.push_back(all[2].seconds[turn] / best);
+  for (std::size_t turn = 0; all[2].usable() && turn < all[2].turns.size(); ++turn) {
+    double best = HUGE_VAL;
+    for (std::size_t i = 0; i < 2; ++i)
+      if (all[i].usable()) best = std::min(best, all[i].turns[turn].*time);
+    const double of_auto = all[2].turns[turn].*time;
+    if (best < HUGE_VAL && of_auto < HUGE_VAL) ratios.push_back(of_auto / best);
   }
   if (ratios.empty()) return HUGE_VAL;
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
@@ -184,6 +206,12 @@ double ratio_of(const Measurement& all) {
 
 bool is_above(double ratio) { return ratio > kAllowedRatio; }
 
+/// `auto` over the better of the others: of trials and of their steps alone.
+struct Ratios {
+  double trial, steps;
+};
+Ratios ratios_of(const Measurement& all) { return {ratio_of(all), ratio_of(all, &Turn::steps)}; }
+
 void print_row(const std::string& label, const Measurement& all) {
   std::printf("| %s |", label.c_str());
   for (const Measured& m : all) {
@@ -192,32 +220,55 @@ void print_row(const std::string& label, const Measurement& all) {
     else
       std::printf(" %s |", m.failure.find("step limit") != std::string::npos ? "> step limit" : "failed");
   }
-  const double ratio = ratio_of(all);
-  std::printf(" %.2f%s |\n", ratio, is_above(ratio) ? " **" : "");
+  const Ratios ratios = ratios_of(all);
+  for (const double ratio : {ratios.trial, ratios.steps}) std::printf(" %.2f%s |", ratio, is_above(ratio) ? " **" : "");
+  std::printf("\n");
   std::fflush(stdout);
 }
 
-/// Prints a row. Returns the time of `auto` over that of the better of the others.
-double report(const std::string& label, const va::Scene& scene, double tolerance) {
+/// Prints a row.
+Ratios report(const std::string& label, const va::Scene& scene, double tolerance) {
   Measurement all;
   take_turns(scene, tolerance, kSecondsPerScene, all);
   print_row(label, all);
-  return ratio_of(all);
+  return ratios_of(all);
 }
 
-struct Summary {
-  std::vector<double> ratios;
+/// Ratios of many scenes.
+class Summary {
+ public:
+  void add(const Ratios& ratios) {
+    trial_.push_back(ratios.trial);
+    steps_.push_back(ratios.steps);
+  }
 
-  double worst() const { return ratios.empty() ? 0.0 : *std::max_element(ratios.begin(), ratios.end()); }
-  double geometric_mean() const {
+  std::size_t size() const { return trial_.size(); }
+  static double worst(const std::vector<double>& ratios) {
+    return ratios.empty() ? 0.0 : *std::max_element(ratios.begin(), ratios.end());
+  }
+  static double geometric_mean(const std::vector<double>& ratios) {
     double sum = 0.0;
     for (const double ratio : ratios) sum += std::log(ratio);
     return std::exp(sum / static_cast<double>(ratios.size()));
   }
-  template <class Condition>
-  std::size_t count(Condition holds) const {
-    return static_cast<std::size_t>(std::count_if(ratios.begin(), ratios.end(), holds));
+  static std::ptrdiff_t above(const std::vector<double>& ratios) {
+    return std::count_if(ratios.begin(), ratios.end(), is_above);
   }
+
+  void print(const char* what) const {
+    if (trial_.empty()) return;
+    std::printf("%zu %s: ", size(), what);
+    const auto print_of = [](const char* name, const std::vector<double>& ratios) {
+      std::printf("%s %td above %.1f, worst %.2f, geometric mean %.2f", name, above(ratios), kAllowedRatio,
+                  worst(ratios), geometric_mean(ratios));
+    };
+    print_of("trials", trial_);
+    print_of("; their steps alone", steps_);
+    std::printf("\n");
+  }
+
+ private:
+  std::vector<double> trial_, steps_;
 };
 
 /// Prints the rows of random scenes above the ratio allowed, then how many there are.
@@ -229,27 +280,28 @@ void report_random_scenes(double tolerance) {
     scene.solver.accuracy.reset();
     scene.solver.step_limit = kRandomStepLimit;
     Measurement measured;
+    const auto shows = [&] {
+      const Ratios ratios = ratios_of(measured);
+      return is_above(ratios.trial) || is_above(ratios.steps);
+    };
     try {
       take_turns(scene, tolerance, kSecondsPerRandomScene, measured);
-      if (is_above(ratio_of(measured)) && better(measured) < HUGE_VAL)
-        take_turns(scene, tolerance, kSecondsPerScene, measured);
+      if (shows() && better(measured) < HUGE_VAL) take_turns(scene, tolerance, kSecondsPerScene, measured);
     } catch (const va::SceneError&) {
       continue;  // it has no start
     }
     if (better(measured) == HUGE_VAL) continue;
-    const double ratio = ratio_of(measured);
-    all.ratios.push_back(ratio);
-    if (better(measured) > kLongTrial) longer.ratios.push_back(ratio);
-    if (!is_above(ratio)) continue;
+    all.add(ratios_of(measured));
+    if (better(measured) > kLongTrial) longer.add(ratios_of(measured));
+    if (!shows()) continue;
     if (measured[2].usable())
       most_beyond = std::max(most_beyond, measured[2].least() - kAllowedRatio * better(measured));
     print_row("random scene " + std::to_string(seed), measured);
   }
-  std::printf(
-      "\n%zu of %zu random scenes above %.1f, by %.0f us at most; of the %zu that take longer than %g ms %zu, "
-      "worst %.2f\n",
-      all.count(is_above), all.ratios.size(), kAllowedRatio, 1e6 * most_beyond, longer.ratios.size(), 1e3 * kLongTrial,
-      longer.count(is_above), longer.worst());
+  std::printf("\n");
+  all.print("random scenes");
+  std::printf("%.0f us beyond %.1f at most\n", 1e6 * most_beyond, kAllowedRatio);
+  longer.print("of these longer than 0.5 ms");
 }
 
 }  // namespace
@@ -262,20 +314,22 @@ int main(int argc, char** argv) {
   }
   std::printf("CPU time of a trial in us (steps), tolerance %g; ratio: auto to the better of the others\n\n",
               tolerance);
-  std::printf("| scene | event | implicit | auto | ratio |\n|---|---|---|---|---|\n");
-  Summary files, all;
+  std::printf("| scene | event | implicit | auto | ratio | of the steps alone |\n|---|---|---|---|---|---|\n");
+  Summary files, made;
+  const auto add = [&](const std::string& label, const va::Scene& scene, Summary* kind) {
+    const Ratios ratios = report(label, scene, tolerance);
+    made.add(ratios);
+    if (kind != nullptr) kind->add(ratios);
+  };
   for (int i = 2; i < argc; ++i) {
     const va::Scene scene = va::load_scene_file(argv[i]);
-    files.ratios.push_back(report(scene.name, scene, tolerance));
+    add(scene.name, scene, &files);
   }
-  all = files;
-  for (const Case& c : built_in_cases()) all.ratios.push_back(report(c.label, c.scene, tolerance));
-  std::printf("\n%zu of %zu above %.1f; worst %.2f", all.count(is_above), all.ratios.size(), kAllowedRatio,
-              all.worst());
-  if (!files.ratios.empty()) std::printf(", of the files %.2f", files.worst());
-  std::printf("; %zu below 1; geometric mean %.2f\n", all.count([](double r) { return r < 1.0; }),
-              all.geometric_mean());
-  std::printf("\n| random scene | event | implicit | auto | ratio |\n|---|---|---|---|---|\n");
+  for (const Case& c : built_in_cases()) add(c.label, c.scene, nullptr);
+  std::printf("\n");
+  made.print("scenes");
+  files.print("of these, of the files");
+  std::printf("\n| random scene | event | implicit | auto | ratio | of the steps alone |\n|---|---|---|---|---|---|\n");
   report_random_scenes(tolerance);
   return 0;
 }

@@ -122,7 +122,7 @@ void evaluate_drives(const DriveForm* forms, const Direction* directions, int co
   });
 }
 
-void evaluate_forces_under(const NormalForcesOctet& acting, const System& system, const StateOctet& states,
+bool evaluate_forces_under(const NormalForcesOctet& acting, const System& system, const StateOctet& states,
                            const LoadOctet& drive, const ContactStates& contacts, ForcesOctet& forces) {
   StickingContacts sticking;
   int count = 0;
@@ -133,6 +133,7 @@ void evaluate_forces_under(const NormalForcesOctet& acting, const System& system
            (count == 2 && hold_pair(system, sticking[0], sticking[1], forces));
   });
   if (!held) hold_one_by_one(system, sticking.data(), count, forces);
+  return held;
 }
 
 }  // namespace vibratory_alignment

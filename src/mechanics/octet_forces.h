@@ -40,8 +40,8 @@ using NormalForcesOctet = std::array<Octet, kSiteCount>;
 
 /// What evaluate_forces() gives for each state, but with the accelerations, and T of what sticks, that other normal
 /// forces than those of the states would cause, with the friction that goes with them. N and T of what slides are told
-/// as those of the states.
-[[gnu::noinline]] void evaluate_forces_under(const NormalForcesOctet& acting, const System& system,
+/// as those of the states. False where what sticks had to be held state by state, which takes ten times as long.
+[[gnu::noinline]] bool evaluate_forces_under(const NormalForcesOctet& acting, const System& system,
                                              const StateOctet& states, const LoadOctet& drive,
                                              const ContactStates& contacts, ForcesOctet& forces);
 

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "mechanics/holding_forces.h"
 #include "mechanics/octet_forces.h"
@@ -45,19 +48,30 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_single(const System& system, const Sticking
   return true;
 }
 
-/// Two contacts that leave the part one motion. With a_i the rows of A = J M^-1/2, b the part of a_2 across a_1,
+/// Two contacts, whatever motion they leave the part. With a_i the rows of A = J M^-1/2, b the part of a_2 across a_1,
 /// a_2 = p a_1 + b, and z = M^1/2 q'',
 ///     T_2 = -(b.z + s_2 - p s_1)/b.b,    T_1 = -(a_1.z + s_1)/a_1.a_1 - p T_2
-/// which forms neither G nor V' (docs/implicit_steps.md). False, with nothing done, where that is delicate: an axis is
-/// locked or far less mobile than others, or rows of J or A are nearly parallel in a state.
+/// which forms neither G nor V' (docs/implicit_steps.md). False, with nothing done, where that is delicate: an axis that
+/// is not locked is far less mobile than others, or rows of J or A are nearly parallel in a state.
 VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOctet& first, const StickingOctet& second,
                                           ForcesOctet& forces) {
   constexpr double kLeastAngle = 1e-2;  // its sine, between the rows of J and those of A
-  const double reach = system.half_width + system.base_distance, mobility_of_x = system.x.inverse_inertia,
-               mobility_of_y = system.y.inverse_inertia, mobility_of_phi = reach * reach * system.phi.inverse_inertia;
-  const double least = std::min({mobility_of_x, mobility_of_y, mobility_of_phi});
-  if (!(std::max({mobility_of_x, mobility_of_y, mobility_of_phi}) < kUnequalMobility * least)) return false;
-  const RowOctet j1 = {first.x, first.y, first.moment / reach}, j2 = {second.x, second.y, second.moment / reach};
+  const double reach = system.half_width + system.base_distance;
+  const std::array<double, 3> mobility = {system.x.inverse_inertia, system.y.inverse_inertia,
+                                          reach * reach * system.phi.inverse_inertia};
+  // a locked axis takes no part
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  std::array<double, 3> free{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(mobility[axis] > 0.0)) continue;
+    least = std::min(least, mobility[axis]);
+    most = std::max(most, mobility[axis]);
+    free[axis] = 1.0;
+  }
+  if (!(most < kUnequalMobility * least)) return false;
+  const double per_reach = free[2] / reach;
+  const RowOctet j1 = {free[0] * first.x, free[1] * first.y, per_reach * first.moment},
+                 j2 = {free[0] * second.x, free[1] * second.y, per_reach * second.moment};
   const RowOctet across = {j1[1] * j2[2] - j1[2] * j2[1], j1[2] * j2[0] - j1[0] * j2[2], j1[0] * j2[1] - j1[1] * j2[0]};
   const Octet short_of_j = (kLeastAngle * kLeastAngle) * dot(j1, j1) * dot(j2, j2) - dot(across, across);
 
@@ -75,7 +89,10 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOc
   }
   const Octet rest = dot(b, b), short_of_a = (kLeastAngle * kLeastAngle) * dot(a2, a2) - rest;
   if (!(largest(short_of_j) < 0.0 && largest(short_of_a) < 0.0)) return false;
-  const RowOctet z = {forces.ax / scale[0], forces.ay / scale[1], forces.alpha / scale[2]};
+  const auto over_scale = [&](const Octet& rate, std::size_t axis) {
+    return free[axis] > 0.0 ? rate / scale[axis] : Octet{};
+  };
+  const RowOctet z = {over_scale(forces.ax, 0), over_scale(forces.ay, 1), over_scale(forces.alpha, 2)};
   const Octet of_first = -(dot(a1, z) + first.slip_rate) / size;  // T_1 + p T_2
   const Octet force = -(dot(b, z) + second.slip_rate - p * first.slip_rate) / rest;
   forces.contact[first.index].tangential_force = of_first - p * force;

@@ -107,6 +107,7 @@ class EventSolver final : public Solver {
   MethodChoice choice_;                   ///< automatic
   bool follows_base_ = false;             ///< automatic: the present implicit step is so short that it follows the base
   long evaluations_before_ = 0;           ///< automatic: until the present step
+  long held_apart_before_ = 0;            ///< automatic: of these, in which what sticks was held state by state
   std::optional<LayerCrossing> layer_crossing_;  ///< where the scene has a layer to cross
   bool may_cross_ = true;                        ///< not tried since the contacts changed
   Segment segment_;

@@ -53,6 +53,9 @@ constexpr double kQuiet = 0.02;
 /// Length that is worth an implicit step, in steps of the series.
 constexpr double kWorthwhile = 4.0;
 
+/// Cost of an evaluation in which what sticks is held state by state, of all states at once 1.
+constexpr long kHeldApart = 10;
+
 }  // namespace
 
 double EventSolver::last_terms(const Segment& s) {
@@ -122,6 +125,10 @@ double EventSolver::contact_step(double longest, const DriveForms& drives) {
   if (method_ == ContactMethod::series || longest == 0.0) return series_contact_step(longest, drives);
   if (contradicted()) {
     believe_state();
+    if (method_ == ContactMethod::automatic) {
+      choice_.distrust();
+      choice_.earn();
+    }
     return series_contact_step(longest, drives);
   }
   if (method_ == ContactMethod::automatic) return chosen_contact_step(longest, drives);
@@ -203,7 +210,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
       choice_.earn();
       return step;
     }
-    choice_.start_passing_over(step);
+    choice_.start_passing_over(step, longest_implicit);
   } else if (choice_.shortest_start() < longest_implicit) {
     const double resumed = choice_.shortest_resumed();
     const double length = length_over_ring(resumed < longest_implicit ? resumed : 0.0, longest, drives);
@@ -214,10 +221,11 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
   }
   if (choice_.implicit()) {
     evaluations_before_ = counts_.rhs_evaluations;
+    held_apart_before_ = implicit_->held_apart();
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
     follows_base_ = step < longest && implicit_->follows_base(step, drives);
     if (step > 0.0) return step;
-    choice_.give_up_implicit(spent());
+    choice_.give_up_implicit(spent(), implicit_->given_up_at());
   }
   choice_.earn();
   return series_contact_step(longest, drives);
@@ -242,7 +250,7 @@ void EventSolver::leave_implicit_step() {
   implicit_now_ = false;
   found_.clear();
   if (method_ == ContactMethod::automatic) {
-    choice_.give_up_implicit(spent());
+    choice_.give_up_implicit(spent(), 0.0);
     choice_.earn();
   } else {
     doubt_implicit_steps();
@@ -324,8 +332,12 @@ void EventSolver::believe_state() {
   }
 }
 
-/// Evaluations of the forces that the present implicit step has taken, also in attempts that were given up.
-long EventSolver::spent() const { return counts_.rhs_evaluations - evaluations_before_; }
+/// Evaluations of the forces that the present implicit step has taken, also in attempts that were given up; those in
+/// which what sticks was held state by state are dearer.
+long EventSolver::spent() const {
+  const long held_apart = implicit_->held_apart() - held_apart_before_;
+  return counts_.rhs_evaluations - evaluations_before_ + (kHeldApart - 1) * held_apart;
+}
 
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.

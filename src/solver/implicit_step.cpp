@@ -256,7 +256,9 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   double last_error = std::numeric_limits<double>::infinity();
   bool tried = false, slower_ring = false;
   // a step of this length was not good enough; for a ring it may be once that has decayed
+  given_up_at_ = 0.0;
   const auto give_up = [&] {
+    given_up_at_ = h;
     if (known_step_ > 0.0 && !slower_ring) known_step_ = std::min(known_step_, h);
     return 0.0;
   };

@@ -33,6 +33,12 @@ class ImplicitStep {
   double take(const State& start, const DriveForms& drives, const StepBounds& bounds, Segment& segment,
               SolverCounts& counts);
 
+  /// Length at which the last take() was given up; 0 where it was not, or not for its length.
+  double given_up_at() const { return given_up_at_; }
+
+  /// Evaluations so far in which what sticks was held state by state (mechanics/octet_forces.h).
+  long held_apart() const { return equations_.held_apart(); }
+
   /// The last step once more, with the shorter length `h` at whose end an event lies: the state there then fulfils the
   /// equations of motion, as no point inside a step does on a stiff base. False when it does not converge, or when
   /// its error in the tanh layer, of which the longer step has seen less, is too large.
@@ -94,6 +100,7 @@ class ImplicitStep {
   double base_time_, slow_base_time_, natural_rate_, flight_time_, most_passed_over_;
   double ring_decay_ = 0.0;                      ///< of what a step at the start of the trial passes over
   double length_ = 0.0;                          ///< of the solution that fills the segment
+  double given_up_at_ = 0.0;                     ///< length at which the last take() was given up
   double known_step_ = 0.0;                      ///< of steps that are good enough, as far as the last ones tell
   FastMotion over_;                              ///< what the next step passes over, with its most speed; rate 0: all
   double next_step_ = 0.0;                       ///< length that the last step suggests

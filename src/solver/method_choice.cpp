@@ -41,10 +41,10 @@ constexpr double kPower = 0.03;
 
 /// What every series step in contact adds to what implicit steps may lose beside the series, as a share of its cost,
 /// and the most that gains may be saved for later losses: the short steps after a slip event.
-constexpr double kTrialShare = 0.16, kMostCredit = 130.0;
+constexpr double kTrialShare = 0.2, kMostCredit = 130.0;
 
 /// What a trial asks for, as a multiple of a usual implicit step; and in the tanh layer.
-constexpr double kTrial = 0.8, kTrialInLayer = 1.2;
+constexpr double kTrial = 0.8, kTrialInLayer = 1.0;
 
 /// Length of a step that is not tried, however long it may be.
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -54,12 +54,17 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kTrialGain = 10.0, kResumeGain = 1.5;
 
 /// Outside the layer an implicit step is tried early where it may become this many times as long as would pay: after so
-/// many steps of the series in the same contacts, of which the last one has grown by no more than this. Its length at
-/// most, as a multiple of the one that would pay.
-constexpr double kEarlyGain = 6.0, kSteady = 1.02, kEarlyLength = 2.5;
+/// many steps of the series in the same contacts, of which the last one has grown by no more than this. It begins with
+/// this multiple of the length that would pay, to which the one that it may become adds its part: their mean, in
+/// logarithms, with this weight.
+constexpr double kEarlyGain = 6.0, kSteady = 1.02, kEarlyLength = 2.5, kEarlyReach = 0.3;
 constexpr int kEarlyAfter = 4;
 
-/// Series steps before that is tried again where it was given up; after each further time twice as many, until an
+/// A trial that was given up is tried again with this share of the length at which it was, or with this multiple of
+/// the pace.
+constexpr double kRetriedShare = 0.5, kLeastRetried = 1.25;
+
+/// Series steps before a step that goes on after a ring is tried again where it was given up; after each further time twice as many, until an
 /// ordinary trial comes sooner.
 constexpr int kWait = 4;
 
@@ -77,19 +82,18 @@ constexpr long kMostEvaluations = 130, kMostTrialEvaluations = 80, kMostInLayer 
 constexpr double kShortestTrial = 1.2;
 
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
-/// series step, and where the way that a step may go is worth it: so many series steps; fewer where next to nothing
-/// rings.
-constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 25.0, kNoRing = 1e-9;
-constexpr long kMostPassingEvaluations = 100;
+/// series step, and where the way that a step may go would cost the series as much as so many usual implicit steps, of
+/// which it may take this share; where next to nothing rings, so many series steps are enough.
+constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 9.0, kPassingShare = 0.2, kNoRing = 1e-9;
+constexpr double kFewestPassingEvaluations = 30.0, kMostPassingEvaluations = 100.0;
 
 /// Implicit steps before the series are first asked how far they would go, and most from one such question to the next
 /// (as many as before the last one).
 constexpr int kFirstQuestion = 2, kMostUnasked = 32;
 
 /// How many times as far the series go by themselves as from the end of an implicit step, whose error makes the base
-/// ring; the share of a difference learned so that is believed; and the most that credit earned by the slower pace
-/// loses: where paces change all the time, it was earned by the pace of its time.
-constexpr double kUndisturbed = 1.25, kBelieved = 0.5, kMostForfeit = 4.0;
+/// ring; the share of a difference learned so that is believed.
+constexpr double kUndisturbed = 1.25, kBelieved = 0.5;
 
 std::size_t kind_of(const ContactStates& contacts) {
   int loaded = 0, stick = 0, in_layer = 0;
@@ -145,11 +149,15 @@ void MethodChoice::look_at(const ContactStates& contacts) {
 bool MethodChoice::passing_over_pays(double step, double longest, double change) const {
   // the tanh layer answers as fast as the base does, and N says nothing of that
   const double most = kind_ < kInLayer ? kMostRing : kNoRing;
-  return step > 0.0 && change <= most && longest > (change <= kNoRing ? kShortestPassing : kPassingWay) * step;
+  if (!(step > 0.0 && change <= most)) return false;
+  return change <= kNoRing ? longest > kShortestPassing * step
+                           : longest * series_cost() > kPassingWay * kKind[kind_].usual_implicit() * step;
 }
 
-void MethodChoice::start_passing_over(double step) {
+void MethodChoice::start_passing_over(double step, double longest) {
   paces_[kind_] = {step / series_cost(), kPaceKnown};
+  const double share = kPassingShare * longest / pace() / kKind[kind_].evaluation;
+  passing_evaluations_ = static_cast<long>(std::clamp(share, kFewestPassingEvaluations, kMostPassingEvaluations));
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }
@@ -193,13 +201,17 @@ bool MethodChoice::starts(double length_over_ring, double longest) {
   implicit_ = tried_ = true;
   if (resumes || is_early) paces_[kind_] = {way_ahead(), std::max(paces_[kind_].steps, kPaceKnown)};
   resumed_length_ = resumes ? length_over_ring : 0.0;
+  early_reach_ = is_early ? length : 0.0;
   return true;
 }
 
 double MethodChoice::trial_length() const {
   if (resumed_length_ > 0.0) return resumed_length_;
-  const double gain = attempt_ == Attempt::early_trial ? kEarlyLength : kTrialGain;
-  return gain * kKind[kind_].usual_implicit() * pace();
+  const double pays = kKind[kind_].usual_implicit() * pace(), early = kEarlyLength * pays;
+  const double length = attempt_ != Attempt::early_trial
+                            ? kTrialGain * pays
+                            : early * std::pow(std::max(early_reach_ / early, 1.0), kEarlyReach);
+  return retried_length_ > 0.0 ? std::min(length, std::max(retried_length_, kLeastRetried * pace())) : length;
 }
 
 StepBounds MethodChoice::bounds(double longest) const {
@@ -212,7 +224,7 @@ StepBounds MethodChoice::bounds(double longest) const {
     case Attempt::easy_trial: return {longest, shortest, kMostEasyTrialEvaluations, true};
     case Attempt::early_trial: return {longest, shortest, most};
     case Attempt::trial: return {longest, shortest, resumes ? paid : most, false, resumes};
-    case Attempt::passes_over: return {longest, kShortestPassing * pace(), kMostPassingEvaluations, false, true};
+    case Attempt::passes_over: return {longest, kShortestPassing * pace(), passing_evaluations_, false, true};
     case Attempt::ordinary: break;
   }
   return {longest, 0.0, paid};
@@ -230,7 +242,7 @@ void MethodChoice::learn_pace(double step) {
   if (!(way > before) || !std::isfinite(way)) return;  // where nothing moves the series go any way
   const double now = before + kBelieved * (way - before);
   paces_[kind_] = {now, std::max(paces_[kind_].steps, kPaceKnown)};
-  credit_ -= std::min(credit_ * (1.0 - before / now), kMostForfeit);
+  credit_ *= before / now;
 }
 
 void MethodChoice::earn() {
@@ -252,20 +264,26 @@ void MethodChoice::settle_series(double gone, double longest, bool event) {
 void MethodChoice::settle_implicit(double gone, double longest, long evaluations, bool follows_base) {
   if (gone > 0.0) may_pass_over_ = false;
   attempt_ = Attempt::ordinary;
-  wait_ = 0;
+  retried_length_ = 0.0;
   ++implicit_steps_;
   const double gain = gone / pace() - kKind[kind_].implicit(evaluations);
-  paid_ = paid_ || gain > 0.0;
+  if (gain > 0.0) {
+    paid_ = true;
+    wait_ = 0;
+  }
   // cut short by a kink or the limit, it has not lost
   if (!(gone == longest && gain < 0.0)) book_implicit(gain);
   // as long as the base rings the next one would lose as well, and what is doubted would find the same again
   if (implicit_ && (doubted_ || (follows_base && gain < 0.0))) leave_to_series(kTrialAfter);
 }
 
-void MethodChoice::give_up_implicit(long evaluations) {
+void MethodChoice::give_up_implicit(long evaluations, double length) {
   // what the question whether a ring can be passed over has cost says nothing about implicit steps
   if (attempt_ != Attempt::passes_over) book_implicit(-kKind[kind_].implicit(evaluations));
-  if (attempt_ == Attempt::trial && resumed_length_ > 0.0) wait_ = std::max(kWait, 2 * wait_);
+  const bool resumed = attempt_ == Attempt::trial && resumed_length_ > 0.0;
+  if (resumed) wait_ = std::max(kWait, 2 * wait_);
+  // over a ring any length may be too short
+  if (!resumed && attempt_ != Attempt::passes_over) retried_length_ = kRetriedShare * length;
   attempt_ = Attempt::ordinary;
   if (implicit_) leave_to_series(kTrialAfter);
 }
@@ -280,6 +298,12 @@ void MethodChoice::ring() {
   cross_layer();
 }
 
+void MethodChoice::distrust() {
+  if (!implicit_) return;
+  wait_ = std::max(kWait, 2 * wait_);
+  leave_to_series(kTrialAfter);
+}
+
 void MethodChoice::cross_layer() {
   may_pass_over_ = false;
   steps_alike_ = 0;
@@ -288,6 +312,7 @@ void MethodChoice::cross_layer() {
 
 void MethodChoice::leave_contact() {
   may_pass_over_ = false;
+  retried_length_ = 0.0;
   paces_ = {};
   leave_to_series(kTrialAfter);
 }

@@ -35,8 +35,8 @@ class MethodChoice {
   /// an event and the normal forces would change by the share `change`.
   bool passing_over_pays(double step, double longest, double change) const;
 
-  /// An implicit step is due that passes over the ring.
-  void start_passing_over(double step);
+  /// An implicit step of at most `longest` is due that passes over the ring.
+  void start_passing_over(double step, double longest);
 
   /// Length from which on an implicit step is worth trying now, provided that it passes over what rings: the last step
   /// is one of the series that shows it. Infinite where none is.
@@ -71,14 +71,17 @@ class MethodChoice {
   /// that it follows a ring of the base.
   void settle_implicit(double gone, double longest, long evaluations, bool follows_base = false);
 
-  /// An implicit step was given up.
-  void give_up_implicit(long evaluations);
+  /// An implicit step was given up, at this length; 0: not for its length.
+  void give_up_implicit(long evaluations, double length);
 
   /// The normal forces jump: the base rings.
   void ring();
 
   /// The present implicit step has found events that a short one does not have: once it is settled the series go.
   void doubt() { doubted_ = true; }
+
+  /// Implicit steps have led to events that undo each other: the series go.
+  void distrust();
 
   /// The tanh layer has been crossed by neither method: there is no last step.
   void cross_layer();
@@ -114,6 +117,9 @@ class MethodChoice {
   bool doubted_ = false;  ///< what the present implicit step has found are no events
   bool may_pass_over_ = true;
   Attempt attempt_ = Attempt::ordinary;
+  double early_reach_ = 0.0;      ///< how long an early trial may become
+  double retried_length_ = 0.0;   ///< with which the next trial begins at most, after one was given up; 0: any
+  long passing_evaluations_ = 0;  ///< that the first step of a trial may take to pass over a ring
   bool tried_ = false;           ///< a trial has been made
   bool paid_ = false;            ///< an implicit step has gained
   double resumed_length_ = 0.0;  ///< of the trial, if it goes on where implicit steps have paid; 0: it does not

@@ -225,7 +225,7 @@ double StageEquations::depth_rounding(const Segment& segment) const {
 /// Forces at the stages, and what these leave of f - a where the acting normal forces change by as much as those of the
 /// states are beyond them, in the directions of the start. Returns the largest.
 double StageEquations::evaluate_stages(Stages& residual, SolverCounts& counts) {
-  evaluate_forces_under(acting_, system_, stages_, drive_, *contacts_, forces_);
+  if (!evaluate_forces_under(acting_, system_, stages_, drive_, *contacts_, forces_)) held_apart_ += kStages;
   counts.rhs_evaluations += kStages;
   double most = 0.0;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { most = residual_under(residual); });

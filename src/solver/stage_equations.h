@@ -54,6 +54,9 @@ class StageEquations {
   double allowed_from(const Segment& segment, double h) const;
   double depth_rounding(const Segment& segment) const;
 
+  /// Evaluations so far, of all steps, in which what sticks was held state by state.
+  long held_apart() const { return held_apart_; }
+
  private:
   double evaluate_stages(Stages& residual, SolverCounts& counts);
   double residual_under(Stages& residual) const;
@@ -96,6 +99,7 @@ class StageEquations {
 
   StageModes modes_;
   LayerCoupling layer_;
+  long held_apart_ = 0;
 };
 
 }  // namespace vibratory_alignment

@@ -88,6 +88,36 @@ TEST_P(OctetForces, are_those_of_every_state) {
   }
 }
 
+// A locked axis takes no part in what holds two contacts.
+TEST_P(OctetForces, of_a_part_with_a_locked_axis_are_those_of_every_state) {
+  const ContactStates contacts =
+      states_of({{Site::a1, Face::bottom, Slip::stick}, {Site::b2, Face::left_wall, Slip::stick}});
+  for (const int locked : {0, 1, 2}) {
+    System system = anisotropic_system();
+    (locked == 0 ? system.x : locked == 1 ? system.y : system.phi).inverse_inertia = 0.0;
+    const StateOctet states = random_states();
+    NormalForcesOctet acting{};
+    std::array<Forces, Octet::kSize> expected;
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      evaluate_forces(system, states[i], {}, contacts, expected[i]);
+      for (std::size_t c = 0; c < 2; ++c) acting[c][i] = expected[i].contact[c].normal_force;
+    }
+    ForcesOctet forces;
+    EXPECT_TRUE(evaluate_forces_under(acting, system, states, {}, contacts, forces)) << locked;
+    for (std::size_t i = 0; i < Octet::kSize; ++i) {
+      const Forces& want = expected[i];
+      double size = 10.0;
+      for (std::size_t c = 0; c < 2; ++c) size += std::abs(want.contact[c].tangential_force);
+      EXPECT_NEAR(forces.ax[i], want.ax, kRounding * size) << locked;
+      EXPECT_NEAR(forces.ay[i], want.ay, kRounding * size) << locked;
+      EXPECT_NEAR(forces.alpha[i], want.alpha, kRounding * size) << locked;
+      for (std::size_t c = 0; c < 2; ++c)
+        EXPECT_NEAR(forces.contact[c].tangential_force[i], want.contact[c].tangential_force, 100.0 * kRounding * size)
+            << locked;
+    }
+  }
+}
+
 // On a base 1.7 times as stiff and damped these would be the forces of the states.
 TEST_P(OctetForces, other_normal_forces_push_with_their_friction) {
   const System system = anisotropic_system();

@@ -403,6 +403,39 @@ TEST(Implicit, automatic_choice_goes_on_after_a_ring_however_short_the_last_impl
   EXPECT_LT(run_with(scene, "auto", 1e-6).counts.steps, 1.4 * static_cast<double>(implicit));
 }
 
+// A part that only moves along the insertion, wedged between two edges, where friction holds: T is found stage by stage
+// (docs/implicit_steps.md "All stages at once"), so that an implicit step costs several times what it gains.
+constexpr char kWedged[] = R"(
+part: {half_width: 0.10145, base_distance: 1.30807}
+slot: {clearance: 0.0001422}
+gripper:
+  stiffness: {phi: 0.31578}
+  damping: {x: 0.00032, y: 0.002738, phi: 0.18647}
+  anchor: {x: 0.07491, y: 1.50332, phi: 0.006864}
+base: {stiffness: {x: 210.985, y: 210.985}}
+contacts: [edges, corners]
+friction: {coefficient: 2.40574}
+excitation:
+  - {amplitude: 1, frequency: 43.9438, phase: -8.71299, direction: y}
+  - {amplitude: -1.17212, frequency: 1.10554, direction: y}
+initial: {x: 0.07491, y: 1.22162, phi: -0.040185, vx: -0.1958, vy: -0.36652, omega: -3.48863}
+trial: {time_limit: 1.65943, aligned_depth: 0.02616}
+solver: {tolerance: 1.0e-4}
+)";
+
+TEST(Implicit, automatic_choice_knows_that_what_is_held_stage_by_stage_is_dear) {
+  Scene scene = load_scene(YAML::Load(kWedged), "wedged");
+  const auto implicit_steps_of = [&](const char* solver) {
+    scene.solver.name = solver;
+    long steps = 0;
+    test::run(scene, [&](const Segment& g) { steps += g.coarse; });
+    return steps;
+  };
+  const long implicit = implicit_steps_of("implicit");
+  ASSERT_GT(implicit, 30);
+  EXPECT_LT(implicit_steps_of("auto"), implicit / 4);
+}
+
 // Early only in contact that has settled: four steps of the series since an event, or ten in one contact. Trials that
 // begin with an implicit step pass over a ring of the start.
 TEST(Implicit, automatic_choice_first_waits_for_contact_to_settle) {
