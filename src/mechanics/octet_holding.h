@@ -51,8 +51,8 @@ VIBRATORY_ALIGNMENT_INLINE bool hold_single(const System& system, const Sticking
 /// Two contacts, whatever motion they leave the part. With a_i the rows of A = J M^-1/2, b the part of a_2 across a_1,
 /// a_2 = p a_1 + b, and z = M^1/2 q'',
 ///     T_2 = -(b.z + s_2 - p s_1)/b.b,    T_1 = -(a_1.z + s_1)/a_1.a_1 - p T_2
-/// which forms neither G nor V' (docs/implicit_steps.md). False, with nothing done, where that is delicate: an axis that
-/// is not locked is far less mobile than others, or rows of J or A are nearly parallel in a state.
+/// which forms neither G nor V' (docs/implicit_steps.md). False, with nothing done, where that is delicate: an axis
+/// that is not locked is far less mobile than others, or rows of J or A are nearly parallel in a state.
 VIBRATORY_ALIGNMENT_INLINE bool hold_pair(const System& system, const StickingOctet& first, const StickingOctet& second,
                                           ForcesOctet& forces) {
   constexpr double kLeastAngle = 1e-2;  // its sine, between the rows of J and those of A

@@ -210,7 +210,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
       choice_.earn();
       return step;
     }
-    choice_.start_passing_over(step, longest_implicit);
+    choice_.start_passing_over(step, longest_implicit, change);
   } else if (choice_.shortest_start() < longest_implicit) {
     const double resumed = choice_.shortest_resumed();
     const double length = length_over_ring(resumed < longest_implicit ? resumed : 0.0, longest, drives);

@@ -64,9 +64,10 @@ constexpr int kEarlyAfter = 4;
 /// the pace.
 constexpr double kRetriedShare = 0.5, kLeastRetried = 1.25;
 
-/// Series steps before a step that goes on after a ring is tried again where it was given up; after each further time twice as many, until an
-/// ordinary trial comes sooner.
-constexpr int kWait = 4;
+/// Series steps before a step that goes on after a ring is tried again where it was given up; after each further time
+/// twice as many, until an ordinary trial comes sooner. After a trial that was given up for another reason than its
+/// length these take twice as many as well, up to the second.
+constexpr int kWait = 4, kMostWait = 160;
 
 /// Series steps to come that grow as the last one did, and how many times as long they become at most.
 constexpr double kGrowingSteps = 4.0, kMostGrown = 4.0;
@@ -83,8 +84,10 @@ constexpr double kShortestTrial = 1.2;
 
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
 /// series step, and where the way that a step may go would cost the series as much as so many usual implicit steps, of
-/// which it may take this share; where next to nothing rings, so many series steps are enough.
+/// which it may take this share; where next to nothing rings, so many series steps are enough. For each time that the
+/// way costs so many they may change by as much again, up to so many times; then it may take the fewest evaluations.
 constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 9.0, kPassingShare = 0.2, kNoRing = 1e-9;
+constexpr double kLongPassingWay = 20.0, kMostRings = 4.0;
 constexpr double kFewestPassingEvaluations = 30.0, kMostPassingEvaluations = 100.0;
 
 /// Implicit steps before the series are first asked how far they would go, and most from one such question to the next
@@ -147,17 +150,19 @@ void MethodChoice::look_at(const ContactStates& contacts) {
 }
 
 bool MethodChoice::passing_over_pays(double step, double longest, double change) const {
+  if (!(step > 0.0)) return false;
+  if (change <= kNoRing) return longest > kShortestPassing * step;
   // the tanh layer answers as fast as the base does, and N says nothing of that
-  const double most = kind_ < kInLayer ? kMostRing : kNoRing;
-  if (!(step > 0.0 && change <= most)) return false;
-  return change <= kNoRing ? longest > kShortestPassing * step
-                           : longest * series_cost() > kPassingWay * kKind[kind_].usual_implicit() * step;
+  if (kind_ >= kInLayer) return false;
+  const double way = longest / step * series_cost() / kKind[kind_].usual_implicit();
+  return way > kPassingWay && change <= kMostRing * std::clamp(way / kLongPassingWay, 1.0, kMostRings);
 }
 
-void MethodChoice::start_passing_over(double step, double longest) {
+void MethodChoice::start_passing_over(double step, double longest, double change) {
   paces_[kind_] = {step / series_cost(), kPaceKnown};
   const double share = kPassingShare * longest / pace() / kKind[kind_].evaluation;
-  passing_evaluations_ = static_cast<long>(std::clamp(share, kFewestPassingEvaluations, kMostPassingEvaluations));
+  const double most = change <= kMostRing ? kMostPassingEvaluations : kFewestPassingEvaluations;
+  passing_evaluations_ = static_cast<long>(std::clamp(share, kFewestPassingEvaluations, most));
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }
@@ -265,6 +270,7 @@ void MethodChoice::settle_implicit(double gone, double longest, long evaluations
   if (gone > 0.0) may_pass_over_ = false;
   attempt_ = Attempt::ordinary;
   retried_length_ = 0.0;
+  refused_ = 0;
   ++implicit_steps_;
   const double gain = gone / pace() - kKind[kind_].implicit(evaluations);
   if (gain > 0.0) {
@@ -281,11 +287,14 @@ void MethodChoice::give_up_implicit(long evaluations, double length) {
   // what the question whether a ring can be passed over has cost says nothing about implicit steps
   if (attempt_ != Attempt::passes_over) book_implicit(-kKind[kind_].implicit(evaluations));
   const bool resumed = attempt_ == Attempt::trial && resumed_length_ > 0.0;
-  if (resumed) wait_ = std::max(kWait, 2 * wait_);
+  if (resumed) wait_longer();
   // over a ring any length may be too short
   if (!resumed && attempt_ != Attempt::passes_over) retried_length_ = kRetriedShare * length;
   attempt_ = Attempt::ordinary;
-  if (implicit_) leave_to_series(kTrialAfter);
+  // the next one would most likely be refused for the same
+  refused_ = length > 0.0 ? 0 : std::clamp(2 * refused_, kTrialAfter, kMostWait);
+  wait_ = std::max(wait_, refused_);
+  leave_to_series(std::max(kTrialAfter, refused_));
 }
 
 void MethodChoice::book_implicit(double gain) {
@@ -300,9 +309,11 @@ void MethodChoice::ring() {
 
 void MethodChoice::distrust() {
   if (!implicit_) return;
-  wait_ = std::max(kWait, 2 * wait_);
+  wait_longer();
   leave_to_series(kTrialAfter);
 }
+
+void MethodChoice::wait_longer() { wait_ = std::clamp(2 * wait_, kWait, kMostWait); }
 
 void MethodChoice::cross_layer() {
   may_pass_over_ = false;
@@ -313,6 +324,7 @@ void MethodChoice::cross_layer() {
 void MethodChoice::leave_contact() {
   may_pass_over_ = false;
   retried_length_ = 0.0;
+  wait_ = refused_ = 0;
   paces_ = {};
   leave_to_series(kTrialAfter);
 }

@@ -36,7 +36,7 @@ class MethodChoice {
   bool passing_over_pays(double step, double longest, double change) const;
 
   /// An implicit step of at most `longest` is due that passes over the ring.
-  void start_passing_over(double step, double longest);
+  void start_passing_over(double step, double longest, double change);
 
   /// Length from which on an implicit step is worth trying now, provided that it passes over what rings: the last step
   /// is one of the series that shows it. Infinite where none is.
@@ -109,6 +109,7 @@ class MethodChoice {
   double shortest_early() const;
   void book_implicit(double gain);
   void leave_to_series(int steps);
+  void wait_longer();
 
   std::size_t kind_ = 0;  ///< of the contacts of this step
   int more_powers_ = 0;   ///< of the last series than usual
@@ -120,10 +121,11 @@ class MethodChoice {
   double early_reach_ = 0.0;      ///< how long an early trial may become
   double retried_length_ = 0.0;   ///< with which the next trial begins at most, after one was given up; 0: any
   long passing_evaluations_ = 0;  ///< that the first step of a trial may take to pass over a ring
-  bool tried_ = false;           ///< a trial has been made
-  bool paid_ = false;            ///< an implicit step has gained
-  double resumed_length_ = 0.0;  ///< of the trial, if it goes on where implicit steps have paid; 0: it does not
-  int wait_ = 0;                 ///< series steps before that is tried again
+  bool tried_ = false;            ///< a trial has been made
+  bool paid_ = false;             ///< an implicit step has gained
+  double resumed_length_ = 0.0;   ///< of the trial, if it goes on where implicit steps have paid; 0: it does not
+  int wait_ = 0;                  ///< series steps before that is tried again
+  int refused_ = 0;               ///< series steps before the next trial, as the last one was refused; 0: it was not
   /// How far the last series steps went for a cost of 1; 0: none since a ring began or an implicit step was taken.
   double last_way_ = 0.0, way_before_ = 0.0;
   double credit_ = 0.0;     ///< what implicit steps may lose

@@ -217,6 +217,23 @@ TEST(MethodChoice, a_trial_that_is_given_up_is_tried_again_with_half_its_length)
   EXPECT_DOUBLE_EQ(other_contact.trial_length(), kTrialGain * kUsual);
 }
 
+TEST(MethodChoice, a_trial_that_is_refused_whatever_its_length_is_made_less_and_less_often) {
+  MethodChoice choice = rich();
+  for (const int steps : {10, 20, 40, 80, 160, 160}) {
+    choice.give_up_implicit(1, 0.0);
+    EXPECT_EQ(steps_until_trial(choice), steps);
+  }
+  choice.give_up_implicit(1, 0.0);
+  MethodChoice other_contact = choice;
+  other_contact.leave_contact();
+  EXPECT_EQ(steps_until_trial(other_contact), kTrialAfter);
+  EXPECT_EQ(steps_until_trial(choice), 160);
+  choice.give_up_implicit(1, 8.0);  // for its length
+  EXPECT_EQ(steps_until_trial(choice), kTrialAfter);
+  choice.give_up_implicit(1, 0.0);
+  EXPECT_EQ(steps_until_trial(choice), 10);
+}
+
 // There a shorter one has the larger error.
 TEST(MethodChoice, a_step_that_was_to_pass_over_a_ring_says_nothing_of_shorter_ones) {
   MethodChoice choice = rich();
@@ -237,7 +254,7 @@ TEST(MethodChoice, a_step_with_an_event_at_once_is_paid_but_not_given_up) {
   expect_first_from((kRich - kUsual) / kLoss, steps_until_dropped(choice));
   MethodChoice start;
   start.look_at(kSliding);
-  start.start_passing_over(1.0, kFar);
+  start.start_passing_over(1.0, kFar, 0.0);
   start.settle_implicit(0.0, kFar, kEffort);
   EXPECT_TRUE(start.may_pass_over());
 }
@@ -459,7 +476,7 @@ TEST(MethodChoice, what_is_given_up_after_a_ring_is_tried_again_less_and_less_of
   choice.ring();
   EXPECT_EQ(steps_until_resumed(), 1);
   for (const int steps : {4, 8, kTrialAfter}) {
-    choice.give_up_implicit(kEffort, 0.0);
+    choice.give_up_implicit(kEffort, 8.0);
     EXPECT_EQ(steps_until_resumed(), steps);
   }
   choice.settle_implicit(1.0, kFar, kEffort);  // taken, but at a loss
@@ -589,9 +606,9 @@ TEST(MethodChoice, a_ring_is_passed_over_at_the_start_alone) {
 }
 
 /// A choice that is about to pass over a ring, where the series go 1.
-MethodChoice passing(double longest = kFar) {
+MethodChoice passing(double longest = kFar, double change = 0.0) {
   MethodChoice choice = fresh();
-  choice.start_passing_over(1.0, longest);
+  choice.start_passing_over(1.0, longest, change);
   return choice;
 }
 
@@ -637,6 +654,17 @@ TEST(MethodChoice, a_ring_may_take_a_fifth_of_what_the_way_costs_the_series) {
   EXPECT_EQ(passing(4.0).bounds(kFar).evaluations, 30);
   EXPECT_EQ(passing(kFar).bounds(kFar).evaluations, 100);
   EXPECT_EQ(passing(HUGE_VAL).bounds(kFar).evaluations, 100);
+}
+
+// For each 20 usual steps that the way costs by 0.06 more, four times that at most; it is soon given up then.
+TEST(MethodChoice, a_larger_ring_is_passed_over_where_the_way_is_longer) {
+  for (const auto& [way, change] : {std::pair{20.0, 0.06}, {30.0, 0.09}, {80.0, 0.24}, {1e6, 0.24}}) {
+    const double longest = 1.001 * way * kUsual;
+    EXPECT_TRUE(fresh().passing_over_pays(1.0, longest, change)) << way;
+    EXPECT_FALSE(fresh().passing_over_pays(1.0, longest, 1.01 * change)) << way;
+  }
+  EXPECT_EQ(passing(kFar, 0.06).bounds(kFar).evaluations, 100);
+  EXPECT_EQ(passing(kFar, 0.061).bounds(kFar).evaluations, 30);
 }
 
 TEST(MethodChoice, in_the_tanh_layer_only_what_hardly_rings_is_passed_over) {
