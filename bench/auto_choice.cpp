@@ -33,8 +33,8 @@ namespace {
 constexpr std::array<const char*, 3> kSolvers = {"event", "implicit", "auto"};
 constexpr double kAllowedRatio = 1.3;
 
-/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these. A random
-/// scene above the ratio allowed gets as many turns more as any other: the clock has slow spells that outlast a few.
+/// Turns of each solver: until they have taken this long together, but neither fewer nor more than these. A scene above
+/// the ratio allowed gets as many turns more as one that is not random: the clock has slow spells that outlast a few.
 constexpr double kSecondsPerScene = 0.5, kSecondsPerRandomScene = 0.01;
 constexpr std::size_t kFewestTurns = 5, kMostTurns = 101;
 
@@ -230,6 +230,7 @@ void print_row(const std::string& label, const Measurement& all) {
 Ratios report(const std::string& label, const va::Scene& scene, double tolerance) {
   Measurement all;
   take_turns(scene, tolerance, kSecondsPerScene, all);
+  if (is_above(ratio_of(all))) take_turns(scene, tolerance, kSecondsPerScene, all);
   print_row(label, all);
   return ratios_of(all);
 }

@@ -85,10 +85,11 @@ constexpr double kShortestTrial = 1.2;
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
 /// series step, and where the way that a step may go would cost the series as much as so many usual implicit steps, of
 /// which it may take this share; where next to nothing rings, so many series steps are enough. For each time that the
-/// way costs so many they may change by as much again, up to so many times; then it may take the fewest evaluations.
+/// way costs so many they may change by as much again, up to so many times; then it may take the fewest evaluations,
+/// and where these cost no more than a series step they may change by any share.
 constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 9.0, kPassingShare = 0.2, kNoRing = 1e-9;
 constexpr double kLongPassingWay = 20.0, kMostRings = 4.0;
-constexpr double kFewestPassingEvaluations = 30.0, kMostPassingEvaluations = 100.0;
+constexpr long kFewestPassingEvaluations = 30, kMostPassingEvaluations = 100;
 
 /// Implicit steps before the series are first asked how far they would go, and most from one such question to the next
 /// (as many as before the last one).
@@ -154,15 +155,19 @@ bool MethodChoice::passing_over_pays(double step, double longest, double change)
   if (change <= kNoRing) return longest > kShortestPassing * step;
   // the tanh layer answers as fast as the base does, and N says nothing of that
   if (kind_ >= kInLayer) return false;
-  const double way = longest / step * series_cost() / kKind[kind_].usual_implicit();
-  return way > kPassingWay && change <= kMostRing * std::clamp(way / kLongPassingWay, 1.0, kMostRings);
+  const Kind& kind = kKind[kind_];
+  const double way = longest / step * series_cost() / kind.usual_implicit();
+  const bool is_cheap = kind.implicit(kFewestPassingEvaluations) <= kind.series;
+  const double rings = is_cheap ? kNever : std::clamp(way / kLongPassingWay, 1.0, kMostRings);
+  return way > kPassingWay && change <= rings * kMostRing;
 }
 
 void MethodChoice::start_passing_over(double step, double longest, double change) {
   paces_[kind_] = {step / series_cost(), kPaceKnown};
   const double share = kPassingShare * longest / pace() / kKind[kind_].evaluation;
-  const double most = change <= kMostRing ? kMostPassingEvaluations : kFewestPassingEvaluations;
-  passing_evaluations_ = static_cast<long>(std::clamp(share, kFewestPassingEvaluations, most));
+  passing_evaluations_ = kFewestPassingEvaluations;
+  if (change <= kMostRing && share > kFewestPassingEvaluations)
+    passing_evaluations_ = share < kMostPassingEvaluations ? static_cast<long>(share) : kMostPassingEvaluations;
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }

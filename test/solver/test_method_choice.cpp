@@ -663,6 +663,15 @@ TEST(MethodChoice, a_larger_ring_is_passed_over_where_the_way_is_longer) {
     EXPECT_TRUE(fresh().passing_over_pays(1.0, longest, change)) << way;
     EXPECT_FALSE(fresh().passing_over_pays(1.0, longest, 1.01 * change)) << way;
   }
+  // where a series step costs more than 30 evaluations a ring of any size is
+  for (const Slip other : {Slip::stick, Slip::plus}) {
+    MethodChoice beside_stick;
+    beside_stick.look_at(contacts_that({Slip::stick, other}));
+    EXPECT_TRUE(beside_stick.passing_over_pays(1.0, 1e3, 100.0));
+  }
+  MethodChoice sliding;
+  sliding.look_at(contacts_that({Slip::plus, Slip::plus}));
+  EXPECT_FALSE(sliding.passing_over_pays(1.0, 1e3, 100.0));
   EXPECT_EQ(passing(kFar, 0.06).bounds(kFar).evaluations, 100);
   EXPECT_EQ(passing(kFar, 0.061).bounds(kFar).evaluations, 30);
 }
