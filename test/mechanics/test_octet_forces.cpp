@@ -33,6 +33,22 @@ std::vector<std::vector<TouchWithSlip>> all_touches() {
   return all;
 }
 
+/// Forces at every state by themselves, and their normal forces.
+struct OneByOne {
+  std::array<Forces, Octet::kSize> forces;
+  NormalForcesOctet normal{};
+};
+
+OneByOne one_by_one(const System& system, const StateOctet& states, const Load3& drive, const ContactStates& contacts) {
+  OneByOne all;
+  for (std::size_t i = 0; i < Octet::kSize; ++i) {
+    evaluate_forces(system, states[i], drive, contacts, all.forces[i]);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(all.forces[i].count); ++c)
+      all.normal[c][i] = all.forces[i].contact[c].normal_force;
+  }
+  return all;
+}
+
 class OctetForces : public testing::TestWithParam<double> {  // largest tilt
  protected:
   StateOctet random_states() {
@@ -60,12 +76,7 @@ TEST_P(OctetForces, are_those_of_every_state) {
   for (const auto& touches : all_touches()) {
     const ContactStates contacts = states_of(touches);
     const StateOctet states = random_states();
-    std::array<Forces, Octet::kSize> expected;
-    NormalForcesOctet acting{};
-    for (std::size_t i = 0; i < Octet::kSize; ++i) {
-      evaluate_forces(system, states[i], {0.3, -0.2, 0.1}, contacts, expected[i]);
-      for (std::size_t c = 0; c < touches.size(); ++c) acting[c][i] = expected[i].contact[c].normal_force;
-    }
+    const auto [expected, acting] = one_by_one(system, states, {0.3, -0.2, 0.1}, contacts);
     ForcesOctet forces;
     evaluate_forces_under(acting, system, states, drive, contacts, forces);
     for (std::size_t i = 0; i < Octet::kSize; ++i) {
@@ -96,12 +107,7 @@ TEST_P(OctetForces, of_a_part_with_a_locked_axis_are_those_of_every_state) {
     System system = anisotropic_system();
     (locked == 0 ? system.x : locked == 1 ? system.y : system.phi).inverse_inertia = 0.0;
     const StateOctet states = random_states();
-    NormalForcesOctet acting{};
-    std::array<Forces, Octet::kSize> expected;
-    for (std::size_t i = 0; i < Octet::kSize; ++i) {
-      evaluate_forces(system, states[i], {}, contacts, expected[i]);
-      for (std::size_t c = 0; c < 2; ++c) acting[c][i] = expected[i].contact[c].normal_force;
-    }
+    const auto [expected, acting] = one_by_one(system, states, {}, contacts);
     ForcesOctet forces;
     EXPECT_TRUE(evaluate_forces_under(acting, system, states, {}, contacts, forces)) << locked;
     for (std::size_t i = 0; i < Octet::kSize; ++i) {
@@ -127,12 +133,7 @@ TEST_P(OctetForces, other_normal_forces_push_with_their_friction) {
   for (const auto& touches : all_touches()) {
     const ContactStates contacts = states_of(touches);
     const StateOctet states = random_states();
-    NormalForcesOctet acting{};
-    std::array<Forces, Octet::kSize> expected;
-    for (std::size_t i = 0; i < Octet::kSize; ++i) {
-      evaluate_forces(stiffer, states[i], {}, contacts, expected[i]);
-      for (std::size_t c = 0; c < touches.size(); ++c) acting[c][i] = expected[i].contact[c].normal_force;
-    }
+    const auto [expected, acting] = one_by_one(stiffer, states, {}, contacts);
     ForcesOctet forces;
     evaluate_forces_under(acting, system, states, {}, contacts, forces);
     for (std::size_t i = 0; i < Octet::kSize; ++i) {
@@ -179,12 +180,7 @@ TEST(OctetHolding, of_two_contacts_keeps_its_digits_at_any_inertia) {
         states.vy[i] = -0.5 * t;
         states.omega[i] = i % 2 == 0 ? 0.0 : 0.75 - t;
       }
-      NormalForcesOctet acting{};
-      std::array<Forces, Octet::kSize> expected;
-      for (std::size_t i = 0; i < Octet::kSize; ++i) {
-        evaluate_forces(system, states[i], {}, contacts, expected[i]);
-        for (std::size_t c = 0; c < 2; ++c) acting[c][i] = expected[i].contact[c].normal_force;
-      }
+      const auto [expected, acting] = one_by_one(system, states, {}, contacts);
       ForcesOctet forces;
       evaluate_forces_under(acting, system, states, {}, contacts, forces);
       for (std::size_t i = 0; i < Octet::kSize; ++i)
