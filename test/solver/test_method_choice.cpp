@@ -234,6 +234,30 @@ TEST(MethodChoice, a_trial_that_is_refused_whatever_its_length_is_made_less_and_
   EXPECT_EQ(steps_until_trial(choice), 10);
 }
 
+// A long step, which would be tried early, after four steps of the series, has to wait as well.
+TEST(MethodChoice, refusals_are_forgotten_when_a_step_is_taken_or_nothing_touches) {
+  const auto steps_until_early = [](MethodChoice& choice) {
+    choice.look_at(kSliding);
+    int steps = 0;
+    for (; steps < 1000 && !starts(choice, kFar); ++steps) go_by_series(choice);
+    return steps;
+  };
+  MethodChoice refused = after_steps(4);
+  ASSERT_TRUE(starts(refused, kFar));
+  for (const int steps : {10, 20, 40}) {
+    refused.give_up_implicit(1, 0.0);
+    EXPECT_EQ(steps_until_early(refused), steps);
+  }
+  MethodChoice taken = refused, left = refused;
+  taken.settle_implicit(2.0 * kEarly, kFar, kEffort);
+  taken.give_up_implicit(1, 0.0);
+  EXPECT_EQ(steps_until_early(taken), 10);
+  left.leave_contact();
+  EXPECT_EQ(steps_until_early(left), 4);
+  left.give_up_implicit(1, 0.0);
+  EXPECT_EQ(steps_until_early(left), 10);
+}
+
 // There a shorter one has the larger error.
 TEST(MethodChoice, a_step_that_was_to_pass_over_a_ring_says_nothing_of_shorter_ones) {
   MethodChoice choice = rich();
@@ -702,9 +726,10 @@ TEST(MethodChoice, other_implicit_steps_take_the_trouble) {
 
 TEST(MethodChoice, what_is_not_passed_over_is_not_paid) {
   MethodChoice choice = passing();
-  choice.give_up_implicit(2000, 0.0);
+  choice.give_up_implicit(2000, 2.0);
   EXPECT_FALSE(choice.implicit());
   expect_first_from(kTrial * kUsual / kShare, steps_until_trial(choice));
+  EXPECT_DOUBLE_EQ(choice.trial_length(), kTrialGain * kUsual);  // nor says anything of shorter steps
 }
 
 }  // namespace
