@@ -371,7 +371,8 @@ void EventSolver::go_along(double step, double longest, double point_tolerance, 
     found_.time = 0.0;
     found_.count = 1;
     found_.events[0] = {EventKind::slip, first_sticking(mode_.contacts)};
-  } else {
+  } else if (segment_.duration != searched_) {
+    found_.clear();
     find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, forms_, found_);
   }
   if (found_.count == 0) return;
@@ -410,6 +411,7 @@ const Segment& EventSolver::advance(double limit) {
   const bool contact = any_loaded(mode_.contacts);
   begin_segment(contact);
   found_.clear();
+  searched_ = 0.0;
   const bool at_once = contact ? cross_layer(longest, found_) : leap(longest, found_);
   if (!at_once) take_step(longest, contact);
   if (contact && !at_once && method_ == ContactMethod::automatic && longest > 0.0 && !contradicted())

@@ -106,12 +106,12 @@ class EventSolver final : public Solver {
   RingWatch ring_watch_;                  ///< implicit
   MethodChoice choice_;                   ///< automatic
   bool follows_base_ = false;             ///< automatic: the present implicit step is so short that it follows the base
-  long evaluations_before_ = 0;           ///< automatic: until the present step
-  long held_apart_before_ = 0;            ///< automatic: of these, in which what sticks was held state by state
+  long cost_before_ = 0;                  ///< automatic: of all implicit steps before the present one
   std::optional<LayerCrossing> layer_crossing_;  ///< where the scene has a layer to cross
   bool may_cross_ = true;                        ///< not tried since the contacts changed
   Segment segment_;
-  FoundEvents found_;  ///< in the step that is being taken
+  FoundEvents found_;      ///< in the step that is being taken
+  double searched_ = 0.0;  ///< automatic: length of the series step whose events these are already; 0: of none
 
   bool in_flight_ = false;  ///< flight_ is the present one
   Flight flight_;

@@ -53,9 +53,6 @@ constexpr double kQuiet = 0.02;
 /// Length that is worth an implicit step, in steps of the series.
 constexpr double kWorthwhile = 4.0;
 
-/// Cost of an evaluation in which what sticks is held state by state, of all states at once 1.
-constexpr long kHeldApart = 10;
-
 }  // namespace
 
 double EventSolver::last_terms(const Segment& s) {
@@ -190,12 +187,11 @@ double EventSolver::usual_reach() {
   return reach;
 }
 
-/// True when the series of a contact step have an event within `step`.
+/// True when the series of a contact step have an event within `step`: those found stay, for a step that ends there.
 bool EventSolver::has_event(double step, const DriveForms& drives) {
-  FoundEvents found;
-  segment_.duration = step;
-  find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
-  return found.count > 0;
+  segment_.duration = searched_ = step;
+  find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found_);
+  return found_.count > 0;
 }
 
 /// Automatic: one by the method that is chosen.
@@ -220,8 +216,7 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
     counts_.rhs_evaluations += segment_.order;
   }
   if (choice_.implicit()) {
-    evaluations_before_ = counts_.rhs_evaluations;
-    held_apart_before_ = implicit_->held_apart();
+    cost_before_ = implicit_->cost();
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
     follows_base_ = step < longest && implicit_->follows_base(step, drives);
     if (step > 0.0) return step;
@@ -239,6 +234,7 @@ double EventSolver::implicit_contact_step(const StepBounds& bounds, const DriveF
     return 0.0;
   }
   implicit_now_ = true;
+  searched_ = 0.0;
   implicit_length_ = step;
   series_.adopt(segment_);
   return step;
@@ -332,12 +328,8 @@ void EventSolver::believe_state() {
   }
 }
 
-/// Evaluations of the forces that the present implicit step has taken, also in attempts that were given up; those in
-/// which what sticks was held state by state are dearer.
-long EventSolver::spent() const {
-  const long held_apart = implicit_->held_apart() - held_apart_before_;
-  return counts_.rhs_evaluations - evaluations_before_ + (kHeldApart - 1) * held_apart;
-}
+/// Evaluations of the forces that the present implicit step has taken, also in attempts that were given up.
+long EventSolver::spent() const { return implicit_->cost() - cost_before_; }
 
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.

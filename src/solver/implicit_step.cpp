@@ -250,7 +250,8 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   if (at_start_) ring_decay_ = slowest_ring_decay(system_, start, segment.contacts);
   const double longest = longest_step(bounds.longest, drives);
   const double shortest = std::max(bounds.shortest, kShortest * longest);
-  const long evaluations_before = counts.rhs_evaluations;
+  const long evaluations_before = counts.rhs_evaluations, cost_before = equations_.cost();
+  const auto spent = [&] { return equations_.cost() - cost_before; };
   const FastMotion over = std::exchange(over_, {});
   double h = next_step_ > 0.0 ? std::min(next_step_, longest) : longest;
   double last_error = std::numeric_limits<double>::infinity();
@@ -264,7 +265,9 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   };
   for (; h > shortest; tried = true, ++counts.rejected) {
     if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return give_up();
-    if (!equations_.solve(h, counts, bounds.easily)) {
+    if (tried && spent() > bounds.cost) return give_up();
+    const long most_cost = tried ? bounds.cost : bounds.first_cost;
+    if (!equations_.solve(h, counts, bounds.easily, most_cost - spent())) {
       if (bounds.easily) return give_up();
       h *= kRetry;
       continue;

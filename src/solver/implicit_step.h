@@ -14,12 +14,15 @@ namespace vibratory_alignment {
 
 /// What a step may be, and what may be spent on it.
 struct StepBounds {
+  static constexpr long kAny = std::numeric_limits<long>::max();
+
   double longest;
   double shortest = 0.0;
-  long evaluations = std::numeric_limits<long>::max();  ///< of the forces, after which no further length is tried
+  long evaluations = kAny;  ///< of the forces, after which no further length is tried
   bool easily = false;  ///< given up at the first length whose equations are not solved in a few iterations
   /// Given up when a shorter length has the larger error: it begins to see a ring that the longer one passes over.
   bool passes_over = false;
+  long first_cost = kAny, cost = kAny;  ///< StageEquations::cost() of the first length, and of all, before it is given up
 };
 
 class ImplicitStep {
@@ -36,8 +39,8 @@ class ImplicitStep {
   /// Length at which the last take() was given up; 0 where it was not, or not for its length.
   double given_up_at() const { return given_up_at_; }
 
-  /// Evaluations so far in which what sticks was held state by state (mechanics/octet_forces.h).
-  long held_apart() const { return equations_.held_apart(); }
+  /// What all steps so far have taken (StageEquations::cost).
+  long cost() const { return equations_.cost(); }
 
   /// The last step once more, with the shorter length `h` at whose end an event lies: the state there then fulfils the
   /// equations of motion, as no point inside a step does on a stiff base. False when it does not converge, or when

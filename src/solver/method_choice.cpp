@@ -84,8 +84,9 @@ constexpr double kShortestTrial = 1.2;
 
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
 /// series step, and where the way that a step may go would cost the series as much as so many usual implicit steps, of
-/// which it may take this share; where next to nothing rings, so many series steps are enough. For each time that the
-/// way costs so many they may change by as much again, up to so many times; then it may take the fewest evaluations,
+/// which its first length may take this share; where next to nothing rings, so many series steps are enough. Further
+/// lengths are tried within as much, but between the fewest and the most evaluations here. For each time that the way
+/// costs so many the forces may change by as much again, up to so many times; then it may take the fewest evaluations,
 /// and where these cost no more than a series step they may change by any share.
 constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 9.0, kPassingShare = 0.2, kNoRing = 1e-9;
 constexpr double kLongPassingWay = 20.0, kMostRings = 4.0;
@@ -164,10 +165,10 @@ bool MethodChoice::passing_over_pays(double step, double longest, double change)
 
 void MethodChoice::start_passing_over(double step, double longest, double change) {
   paces_[kind_] = {step / series_cost(), kPaceKnown};
+  constexpr double kFewest = kFewestPassingEvaluations, kMost = std::numeric_limits<int>::max();
   const double share = kPassingShare * longest / pace() / kKind[kind_].evaluation;
-  passing_evaluations_ = kFewestPassingEvaluations;
-  if (change <= kMostRing && share > kFewestPassingEvaluations)
-    passing_evaluations_ = share < kMostPassingEvaluations ? static_cast<long>(share) : kMostPassingEvaluations;
+  first_passing_cost_ = static_cast<long>(std::clamp(share, kFewest, kMost));
+  passing_cost_ = change > kMostRing ? kFewestPassingEvaluations : std::min(first_passing_cost_, kMostPassingEvaluations);
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }
@@ -234,7 +235,8 @@ StepBounds MethodChoice::bounds(double longest) const {
     case Attempt::easy_trial: return {longest, shortest, kMostEasyTrialEvaluations, true};
     case Attempt::early_trial: return {longest, shortest, most};
     case Attempt::trial: return {longest, shortest, resumes ? paid : most, false, resumes};
-    case Attempt::passes_over: return {longest, kShortestPassing * pace(), passing_evaluations_, false, true};
+    case Attempt::passes_over: 
+      return {longest, kShortestPassing * pace(), StepBounds::kAny, false, true, first_passing_cost_, passing_cost_};
     case Attempt::ordinary: break;
   }
   return {longest, 0.0, paid};
@@ -282,8 +284,9 @@ void MethodChoice::settle_implicit(double gone, double longest, long evaluations
     paid_ = true;
     wait_ = 0;
   }
-  // cut short by a kink or the limit, it has not lost
-  if (!(gone == longest && gain < 0.0)) book_implicit(gain);
+  // cut short by a kink or the limit, it has not lost; nor where the events of the start come at once
+  const bool is_start = gone == 0.0 && may_pass_over_;
+  if (!(gone == longest && gain < 0.0) && !is_start) book_implicit(gain);
   // as long as the base rings the next one would lose as well, and what is doubted would find the same again
   if (implicit_ && (doubted_ || (follows_base && gain < 0.0))) leave_to_series(kTrialAfter);
 }

@@ -71,6 +71,7 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
   start_drive_ = drive_at_start(drives);
   evaluate_forces(system_, start, start_drive_, contacts, start_forces_);
   ++counts.rhs_evaluations;
+  ++cost_;
   start_jacobian_ = force_jacobian(system_, start, contacts, start_forces_);
   forces_before_ = follows ? forces_[kStages - 1] : start_forces_;
 }
@@ -225,7 +226,8 @@ double StageEquations::depth_rounding(const Segment& segment) const {
 /// Forces at the stages, and what these leave of f - a where the acting normal forces change by as much as those of the
 /// states are beyond them, in the directions of the start. Returns the largest.
 double StageEquations::evaluate_stages(Stages& residual, SolverCounts& counts) {
-  if (!evaluate_forces_under(acting_, system_, stages_, drive_, *contacts_, forces_)) held_apart_ += kStages;
+  const bool at_once = evaluate_forces_under(acting_, system_, stages_, drive_, *contacts_, forces_);
+  cost_ += at_once ? kStages : kHeldApart * kStages;
   counts.rhs_evaluations += kStages;
   double most = 0.0;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA { most = residual_under(residual); });
@@ -258,7 +260,7 @@ double StageEquations::correct(const Stages& residual, double h) {
   return place_stages(h);
 }
 
-bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
+bool StageEquations::solve(double h, SolverCounts& counts, bool easily, long most_cost) {
   evaluate_drives(drives_->form.data(), drives_->direction.data(), drives_->count, h * stage_table().node, drive_);
   modes_.set(h, start_jacobian_);
   if (modes_.passes_over_growth()) return false;
@@ -269,6 +271,7 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
   double before = std::numeric_limits<double>::infinity(), before_that = before;
   const int most_iterations = easily ? kEasyIterations : kMostIterations;
   double enough = allowed(h);
+  const long cost_before = cost_;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Stages residual;
     const double left = evaluate_stages(residual, counts);
@@ -289,6 +292,7 @@ bool StageEquations::solve(double h, SolverCounts& counts, bool easily) {
       keep_guess(h);
       return true;
     }
+    if (cost_ - cost_before > most_cost) return false;
     if (stagnates && change > kPairs * before_that && iteration >= kTrials) return false;
     before_that = before;
     before = change;

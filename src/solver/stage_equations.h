@@ -2,6 +2,8 @@
 // them (docs/implicit_steps.md).
 #pragma once
 
+#include <limits>
+
 #include "solver/layer_coupling.h"
 #include "solver/motion_series.h"
 #include "solver/solver.h"
@@ -20,8 +22,9 @@ class StageEquations {
   void begin(const State& start, const DriveForms& drives, const ContactStates& contacts, bool follows,
              SolverCounts& counts);
 
-  /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations.
-  bool solve(double h, SolverCounts& counts, bool easily = false);
+  /// Solves a step of length h; false when that does not converge. `easily`: in a few iterations. Given up once
+  /// it has taken more than `most_cost` of cost().
+  bool solve(double h, SolverCounts& counts, bool easily = false, long most_cost = std::numeric_limits<long>::max());
 
   /// The next solution is guessed from what the step began with, not from the one at hand, which is worth nothing.
   void drop_solution() { known_ = known_before_; }
@@ -54,8 +57,10 @@ class StageEquations {
   double allowed_from(const Segment& segment, double h) const;
   double depth_rounding(const Segment& segment) const;
 
-  /// Evaluations so far, of all steps, in which what sticks was held state by state.
-  long held_apart() const { return held_apart_; }
+  /// What all steps so far have taken, in evaluations of the forces: one in which what sticks was held state by state
+  /// (mechanics/octet_forces.h) counts as so many.
+  long cost() const { return cost_; }
+  static constexpr long kHeldApart = 10;
 
  private:
   double evaluate_stages(Stages& residual, SolverCounts& counts);
@@ -99,7 +104,7 @@ class StageEquations {
 
   StageModes modes_;
   LayerCoupling layer_;
-  long held_apart_ = 0;
+  long cost_ = 0;
 };
 
 }  // namespace vibratory_alignment

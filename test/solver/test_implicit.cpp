@@ -592,6 +592,30 @@ TEST(Implicit, a_step_that_is_to_be_easy_is_given_up_at_the_first_trouble) {
   EXPECT_GT(many, 0);
 }
 
+// An iteration evaluates the forces at all stages, after one at the start. The first length may take more than further
+// ones leave of it.
+TEST(Implicit, a_step_that_has_taken_what_it_may_is_given_up) {
+  const System system = resting(0.6);
+  const auto evaluations = [&](long first_cost, long cost) {
+    ImplicitStep step(system, 1e-10);
+    step.leave_start();
+    Segment segment;
+    segment.contacts = on_edge();
+    SolverCounts counts;
+    const double length =
+        step.take(system.start, kNoDrives, {10.0, 0.0, StepBounds::kAny, false, false, first_cost, cost}, segment, counts);
+    return std::pair{length > 0.0, counts.rhs_evaluations};
+  };
+  constexpr long kIteration = StageEquations::kStages;
+  EXPECT_EQ(evaluations(20, 20), (std::pair{false, 1 + 3 * kIteration}));
+  const long of_first = evaluations(StepBounds::kAny, 20).second;
+  EXPECT_FALSE(evaluations(StepBounds::kAny, 20).first);
+  EXPECT_GT(of_first, 1 + 3 * kIteration);
+  EXPECT_FALSE(evaluations(StepBounds::kAny, of_first + 1).first);
+  EXPECT_GT(evaluations(StepBounds::kAny, of_first + 1).second, of_first);
+  EXPECT_TRUE(evaluations(StepBounds::kAny, StepBounds::kAny).first);
+}
+
 // Friction is decided by the series. Where the polynomials of an implicit step say the contrary at its start (N and V
 // begin with a zero of second order, or a creep ends that the step passes over), the same events would follow each
 // other for ever. The final states are those of `event` up to what small errors make of the slips before.

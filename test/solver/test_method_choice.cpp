@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -673,11 +675,15 @@ TEST(MethodChoice, the_way_over_a_ring_is_measured_by_what_it_costs_the_series) 
   EXPECT_FALSE(choice.passing_over_pays(1.0, 0.99 * kWay, 5.9e-2));
 }
 
+// But 30 evaluations, and where that is more than 100 these, within which further lengths are tried.
 TEST(MethodChoice, a_ring_may_take_a_fifth_of_what_the_way_costs_the_series) {
-  EXPECT_EQ(passing(25.0).bounds(kFar).evaluations, static_cast<long>(5.0 / kEvaluation));  // 96
-  EXPECT_EQ(passing(4.0).bounds(kFar).evaluations, 30);
-  EXPECT_EQ(passing(kFar).bounds(kFar).evaluations, 100);
-  EXPECT_EQ(passing(HUGE_VAL).bounds(kFar).evaluations, 100);
+  constexpr long kFifth = static_cast<long>(5.0 / kEvaluation), kTen = static_cast<long>(50.0 / kEvaluation);  // 96, 961
+  constexpr long kMost = std::numeric_limits<int>::max();
+  for (const auto& [way, of_first, of_all] :
+       {std::tuple{25.0, kFifth, kFifth}, {4.0, 30L, 30L}, {250.0, kTen, 100L}, {HUGE_VAL, kMost, 100L}}) {
+    EXPECT_EQ(passing(way).bounds(kFar).first_cost, of_first) << way;
+    EXPECT_EQ(passing(way).bounds(kFar).cost, of_all) << way;
+  }
 }
 
 // For each 20 usual steps that the way costs by 0.06 more, four times that at most; it is soon given up then.
@@ -696,8 +702,9 @@ TEST(MethodChoice, a_larger_ring_is_passed_over_where_the_way_is_longer) {
   MethodChoice sliding;
   sliding.look_at(contacts_that({Slip::plus, Slip::plus}));
   EXPECT_FALSE(sliding.passing_over_pays(1.0, 1e3, 100.0));
-  EXPECT_EQ(passing(kFar, 0.06).bounds(kFar).evaluations, 100);
-  EXPECT_EQ(passing(kFar, 0.061).bounds(kFar).evaluations, 30);
+  EXPECT_EQ(passing(kFar, 0.06).bounds(kFar).cost, 100);
+  EXPECT_EQ(passing(kFar, 0.061).bounds(kFar).cost, 30);
+  EXPECT_GT(passing(kFar, 0.061).bounds(kFar).first_cost, 1000);
 }
 
 TEST(MethodChoice, in_the_tanh_layer_only_what_hardly_rings_is_passed_over) {
@@ -713,9 +720,18 @@ TEST(MethodChoice, a_ring_is_passed_over_by_a_long_step_or_soon_given_up) {
   const StepBounds bounds = passing().bounds(501.0);
   EXPECT_EQ(bounds.longest, 501.0);
   EXPECT_DOUBLE_EQ(bounds.shortest, 3.0);
-  EXPECT_EQ(bounds.evaluations, 100);
+  EXPECT_EQ(bounds.cost, 100);
   EXPECT_TRUE(bounds.passes_over);
   EXPECT_FALSE(bounds.easily);
+}
+
+// Contacts that find their states at the start are none that a step could have gone by.
+TEST(MethodChoice, events_at_the_start_are_not_paid_for) {
+  MethodChoice choice = passing();
+  for (int i = 0; i < 4; ++i) choice.settle_implicit(0.0, kFar, 1000);
+  EXPECT_TRUE(choice.implicit());
+  choice.settle_implicit(1.0, kFar, 1000);
+  EXPECT_FALSE(choice.implicit());
 }
 
 TEST(MethodChoice, other_implicit_steps_take_the_trouble) {
