@@ -85,7 +85,7 @@ void place_contacts(const System& system, const State& state, ContactStates& con
     ContactState& contact = contacts[i];
     contact = {};
     if (!site_in_use(system, site)) continue;
-    const Vec2 p = site_point(system, state, site);
+    const Vec2 p = site_point(system, state, site, c, s);
     for (int half = 0; half < region_count(site); ++half) {
       const Region region = site_region(system, site, half);
       // inside: all conditions hold; of the faces that the scene calls for the nearest is the one with the least depth
@@ -109,7 +109,7 @@ void place_contacts(const System& system, const State& state, ContactStates& con
       if (nearest == Face::none || (beside && corner_face != Face::right_wall && corner_face != Face::left_wall))
         continue;
       contact.face = nearest;
-      const ContactKinematics k = contact_kinematics(system, state, site, nearest);
+      const ContactKinematics k = contact_kinematics(system, state, site, nearest, p, c, s);
       const double force =
           stiffness_of(system, nearest, c, s) * k.depth + damping_of(system, nearest, c, s) * k.depth_rate;
       contact.phase = force > 0.0 ? Phase::loaded : Phase::unloaded;

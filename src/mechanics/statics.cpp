@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "mechanics/contact_frame.h"
 #include "mechanics/site_rules.h"
@@ -19,6 +20,10 @@ constexpr double kFarthestTouch = 100.0;
 
 /// Moment left over in an equilibrium, relative to those that balance.
 constexpr double kBalanced = 1e-6;
+
+/// Secants after which a height is sought between two others instead; change that is rounding, relative to it.
+constexpr int kMostSecants = 8;
+constexpr double kLastDigits = 1e-15;
 
 /// Shortest way over which a height is sought.
 constexpr double kShortestWay = 1e-12;
@@ -68,10 +73,20 @@ std::optional<double> balanced_height(const System& system, double x, double phi
   const auto lift = [&](double y) { return static_load(system, x, y, phi).force_y; };
   const double load = -lift(top);
   if (load <= 0.0) return std::nullopt;
-  // no shorter way carries it, where every site touches the base where it is stiffest: double it until the part is
-  // pushed up
+  // no shorter way carries it, where every site touches the base where it is stiffest
   const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
   double way = std::max(load / most_stiffness, kShortestWay);
+  // the forces grow in proportion to depth, until something else touches: the secant meets the balance in a few steps
+  double before = top, lift_before = -load, y = top - way;
+  for (int i = 0; i < kMostSecants; ++i) {
+    const double lift_here = lift(y);
+    const double next = y - lift_here * (y - before) / (lift_here - lift_before);
+    if (!(next < top)) break;
+    if (std::abs(next - y) <= kLastDigits * std::abs(y)) return next;
+    before = std::exchange(y, next);
+    lift_before = lift_here;
+  }
+  // it does not where the face that is touched changes: double the way until the part is pushed up
   while (lift(top - way) < 0.0) {
     way *= 2.0;
     if (way > 1e9) return std::nullopt;
@@ -116,7 +131,9 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
   double only_force = 0.0;
   for (int i = 0; i < kSiteCount; ++i) {
     if (!contacts[i].touching()) continue;
-    const ContactKinematics k = contact_kinematics(system, state, static_cast<Site>(i), contacts[i].face);
+    const auto site = static_cast<Site>(i);
+    const Vec2 p = site_point(system, state, site, c, s);
+    const ContactKinematics k = contact_kinematics(system, state, site, contacts[i].face, p, c, s);
     const double n = stiffness_of(system, contacts[i].face, c, s) * k.depth;
     if (n <= 0.0) continue;
     force_x += n * k.normal.x;

@@ -184,6 +184,24 @@ TEST(Equilibrium, loads_vanish_without_friction) {
       }
 }
 
+// On bases from soft to stiff, on one contact and, with corners on a soft base, pressed until more than one carries: what
+// is left over is what the last digit of the height makes of the base's stiffness.
+TEST(Equilibrium, is_found_to_the_last_digit_on_any_base) {
+  int on_several = 0;
+  for (const double stiffness : {30.0, 1e3, 1e6, 1e9, 1e12})
+    for (const char* force : {"gripper.pressing_force=0.01", "gripper.pressing_force=3.0"})
+      for (const char* x : {"initial.x=0.21", "initial.x=-0.3", "initial.x=0.12"}) {
+        const System s = make_system(at_rest({"friction=null", "contacts=[edges, corners]", force, x,
+                                              "base.stiffness={y: " + std::to_string(stiffness) + "}"}));
+        const Balance b = balance(s, s.start, 0.0);
+        ASSERT_GE(b.loaded, 1);
+        on_several += b.loaded > 1;
+        EXPECT_NEAR(b.y, 0.0, 2e-15 * (1.0 + stiffness * b.loaded)) << stiffness << force << x;
+        EXPECT_NEAR(b.moment, 0.0, 1e-15 * (1.0 + stiffness * b.loaded)) << stiffness << force << x;
+      }
+  EXPECT_GT(on_several, 0);
+}
+
 // One contact and set-valued friction: it carries the horizontal force too, as far as f N.
 TEST(Equilibrium, friction_holds_the_part_in_place) {
   for (const char* x : {"initial.x=0.21", "initial.x=0.35", "initial.x=-0.3"}) {
