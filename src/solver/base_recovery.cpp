@@ -11,20 +11,9 @@ namespace {
 /// A base that recovers at a rate of this does so at once.
 constexpr double kFastestRecovery = 1e12;
 
-/// k/h at a tilt, and its derivative by phi.
-struct RelaxationRate {
-  double value, slope;
-};
-
-RelaxationRate rate_at(const System& system, Face face, double c, double s) {
-  const double k = stiffness_of(system, face, c, s), h = damping_of(system, face, c, s);
-  const double rate = k / h;
-  return {rate, (stiffness_slope_of(system, face, c, s) - rate * damping_slope_of(system, face, c, s)) / h};
-}
-
 double rate_at_start(const System& system, const Segment& segment, Face face) {
   const Tilt tilt = tilt_of(segment.begin.phi);
-  return rate_at(system, face, tilt.cos, tilt.sin).value;
+  return relaxation_rate(system, face, tilt.cos, tilt.sin).value;
 }
 
 /// k/h as a series: h (k/h) = k, power by power.
@@ -44,6 +33,23 @@ Series rate_series(const System& system, const Segment& segment, Face face) {
 bool recovers_at_once(const System& system, Face face, double cos_phi, double sin_phi) {
   const double damping = damping_of(system, face, cos_phi, sin_phi);
   return damping == 0.0 || damping * kFastestRecovery < stiffness_of(system, face, cos_phi, sin_phi);
+}
+
+RelaxationRate relaxation_rate(const System& system, Face face, double cos_phi, double sin_phi) {
+  const double k = stiffness_of(system, face, cos_phi, sin_phi), h = damping_of(system, face, cos_phi, sin_phi);
+  const double rate = k / h;
+  return {rate, (stiffness_slope_of(system, face, cos_phi, sin_phi) -
+                 rate * damping_slope_of(system, face, cos_phi, sin_phi)) /
+                    h};
+}
+
+RelaxationBounds relaxation_bounds(const System& system, Face face) {
+  if (recovers_evenly(system, face)) return {0.0, 0.0};
+  // (a + b cos 2 phi)/(p + q cos 2 phi), whose slope has the factor b p - a q
+  const double factor = 0.5 * std::abs(system.stiffness_y * system.damping_x - system.stiffness_x * system.damping_y);
+  const double q = 0.5 * std::abs(system.damping_y - system.damping_x);
+  const double least = std::min(system.damping_x, system.damping_y), per_square = factor / (least * least);
+  return {2.0 * per_square, 4.0 * per_square * (1.0 + 2.0 * q / least)};
 }
 
 bool recovers_evenly(const System& system, Face face) {
@@ -91,10 +97,10 @@ double recovery_step(const System& system, const Segment& segment, const Recover
 double deformation_between(const System& system, const Recovery& recovery, const PlacedState& from,
                            const PlacedState& to, double elapsed) {
   if (recovery.deformation == 0.0) return 0.0;
-  const RelaxationRate start = rate_at(system, recovery.face, from.cos_phi, from.sin_phi);
+  const RelaxationRate start = relaxation_rate(system, recovery.face, from.cos_phi, from.sin_phi);
   double relaxed = start.value * elapsed;
   if (!recovers_evenly(system, recovery.face)) {
-    const RelaxationRate end = rate_at(system, recovery.face, to.cos_phi, to.sin_phi);
+    const RelaxationRate end = relaxation_rate(system, recovery.face, to.cos_phi, to.sin_phi);
     const double bend = start.slope * from.state.omega - end.slope * to.state.omega;
     relaxed = std::max(0.0, elapsed * (0.5 * (start.value + end.value) + elapsed * bend / 12.0));
   }

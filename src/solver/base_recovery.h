@@ -17,6 +17,18 @@ inline constexpr double kNoDeformation = 1e-18;
 /// True for a base that recovers at once under `face` at the tilt given: undamped, or faster than anything to be seen.
 bool recovers_at_once(const System& system, Face face, double cos_phi, double sin_phi);
 
+/// k/h of a face at a tilt, 1/time, and its derivative by phi.
+struct RelaxationRate {
+  double value, slope;
+};
+RelaxationRate relaxation_rate(const System& system, Face face, double cos_phi, double sin_phi);
+
+/// Bounds on the first and the second of its derivatives by phi, at any tilt.
+struct RelaxationBounds {
+  double slope, bend;
+};
+RelaxationBounds relaxation_bounds(const System& system, Face face);
+
 /// True when k/h of `face` is the same however the part turns.
 bool recovers_evenly(const System& system, Face face);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/site_rules.h"
+#include "solver/base_recovery.h"
 #include "solver/flight_view.h"
 
 namespace vibratory_alignment {
@@ -274,12 +275,20 @@ class Search {
     return true;
   }
 
-  /// k d + h d' of an unloaded contact, which is not above zero, falls.
+  /// d k/h + d' of an unloaded contact, which is not above zero, falls.
   bool stays_unloaded(const FlightView& view, const BoundedCurve& depth, Face face, double span) const {
-    if (system_.recovery || (is_part_face(face) && !system_.isotropic)) return false;
-    const double k = view.stiffness(face), h = view.damping(face);
-    const double rate = k * depth.rate + h * depth.acceleration;
-    const double bend = k * (std::abs(depth.acceleration) + depth.jerk * span) + h * depth.jerk;
+    if (system_.recovery) return false;
+    const RelaxationRate relaxation = relaxation_rate(system_, face, view.tilt().cos, view.tilt().sin);
+    const RelaxationBounds most = relaxation_bounds(system_, face);
+    const double turning = view.most_turning();
+    const double change = most.slope * turning,
+                 bend_of_change = most.slope * view.most_turning_rate() + most.bend * turning * turning;
+    const double acceleration = std::abs(depth.acceleration) + depth.jerk * span,
+                 speed = std::abs(depth.rate) + acceleration * span, way = std::abs(depth.value) + speed * span;
+    const double rate = relaxation.value * depth.rate + depth.acceleration +
+                        relaxation.slope * view.turning() * depth.value;
+    const double bend = (relaxation.value + change * span) * acceleration + depth.jerk + 2.0 * change * speed +
+                        bend_of_change * way;
     return rate + 0.5 * bend * span < 0.0;
   }
 

@@ -60,8 +60,11 @@ class FlightView {
   /// and how far out it is now. `pinned`: the face on which it lies.
   Clearance clearance(const PointMotion& motion, const Region& region, Face pinned, double horizon) const;
 
-  double stiffness(Face face) const { return stiffness_of(system_, face, tilt_.cos, tilt_.sin); }
-  double damping(Face face) const { return damping_of(system_, face, tilt_.cos, tilt_.sin); }
+  const Tilt& tilt() const { return tilt_; }
+  /// phi' now, and bounds on |phi'| and |phi''| as far as this view reaches.
+  double turning() const { return state_.omega; }
+  double most_turning() const { return turning(outlook_.rate); }
+  double most_turning_rate() const { return turning(outlook_.second); }
 
  private:
   /// From the mass centre to a corner.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "../support/lone_motion.h"
 #include "../support/random_scenes.h"
@@ -328,6 +329,90 @@ TEST(Flight, one_look_finds_the_landing_of_a_whole_flight) {
   }
 }
 
+/// Just released: edge A1 is `depth` deep in the bottom face, k d + h d' = 0, and nothing but the gripper acts.
+struct Released {
+  System system;
+  State state;
+
+  Released(System released, double depth, double phi, double omega) : system(std::move(released)) {
+    state = {0.21, 0.0, phi, 0.0, 0.0, omega};
+    // depth and its rate grow by -cos phi with y and vy
+    state.y = (kinematics(state).depth - depth) / std::cos(phi);
+    state.vy = (kinematics(state).depth_rate + relaxation(state) * depth) / std::cos(phi);
+  }
+  ContactKinematics kinematics(const State& q) const { return contact_kinematics(system, q, Site::a1, Face::bottom); }
+  /// k/h
+  double relaxation(const State& q) const {
+    const double c = std::cos(q.phi), s = std::sin(q.phi);
+    return (system.stiffness_y * c * c + system.stiffness_x * s * s) /
+           (system.damping_y * c * c + system.damping_x * s * s);
+  }
+  Flight flight() const {
+    Flight flight(system, 0);
+    flight.begin(state, {}, {});
+    return flight;
+  }
+  FlightOutlook outlook(const Flight& flight) const {
+    ContactStates contacts{};
+    contacts[0] = {Phase::unloaded, Face::bottom};
+    return look_ahead(system, flight, 0.0, state, contacts, {}, {}, {}, 10.0);
+  }
+  /// N/k at its largest up to `time`.
+  double most_push(const Flight& flight, double time) const {
+    return largest_within(flight, state, 0.0, time, [&](const State& q) {
+      return kinematics(q).depth + kinematics(q).depth_rate / relaxation(q);
+    });
+  }
+};
+
+// Bases stiffer and more damped in one direction than in the other, whose k/h turns with the part: on the way to where
+// it is told to close the base is never pressed again.
+TEST(Flight, an_unloaded_contact_that_is_told_to_close_is_not_loaded_before) {
+  int closings = 0, others = 0, turning = 0;
+  for (unsigned seed = 1; seed <= 3000; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    const auto between = [&](double low, double high) { return low * std::pow(high / low, 0.5 + 0.5 * u(random)); };
+    Scene scene = test::scene_of(test::plain, {});
+    scene.base.stiffness_y = between(1.0, 1e4);
+    scene.base.stiffness_x = scene.base.stiffness_y * between(0.1, 10.0);
+    scene.base.damping_y = scene.base.stiffness_y / between(1.0, 1e3);
+    scene.base.damping_x = scene.base.stiffness_x / between(1.0, 1e3);
+    Released released(make_system(scene), between(1e-6, 1e-2), 0.4 * u(random), 2.0 * u(random));
+    released.system.y.anchor = released.state.y + 0.5 + 2.0 * u(random);  // more often pulled off than pressed on
+    const Flight flight = released.flight();
+    const FlightOutlook outlook = released.outlook(flight);
+    if (!outlook.lands) {
+      ++others;
+      continue;
+    }
+    ++closings;
+    turning += std::abs(released.relaxation(outlook.end) / released.relaxation(released.state) - 1.0) > 1e-3;
+    EXPECT_EQ(outlook.event.kind, EventKind::close);
+    EXPECT_NEAR(released.kinematics(outlook.end).depth, 0.0, 1e-14) << seed;
+    EXPECT_LE(released.most_push(flight, outlook.time), 1e-15) << seed;
+  }
+  EXPECT_GT(closings, 150);
+  EXPECT_GT(turning, 50);
+  EXPECT_GT(others, 100);
+}
+
+// Hardly damped upwards and much across: as the part turns upright the base answers faster than it is left, and is
+// pressed again.
+TEST(Flight, an_unloaded_contact_that_is_loaded_again_is_left_to_the_series) {
+  constexpr double kTilt = 1e-3, kTurning = -1.0, kDepth = 1e-5;
+  System system = make_system(test::scene_of(test::plain, {}));
+  system.stiffness_x = system.stiffness_y = 1e3;
+  system.damping_y = 1e-3;
+  system.damping_x = 1.0 / (kTilt * kTilt);
+  system.isotropic = false;
+  Released released(system, kDepth, kTilt, kTurning);
+  released.system.y.anchor = released.state.y + 0.5;  // pulled off, as alone the contact would close
+  const Flight flight = released.flight();
+  EXPECT_GT(released.most_push(flight, 5e-4), 0.1 * kDepth);
+  EXPECT_FALSE(released.outlook(flight).lands);
+}
+
 // Shaken so that it nears the base and turns back: wherever a landing is told of, the depth is zero.
 TEST(Flight, a_turning_point_is_no_landing) {
   std::mt19937 random(7);
@@ -498,7 +583,7 @@ TEST(Flight, the_landing_on_a_corner_is_left_to_the_series) {
 // Parts that turn fast: the point that seems nearest is not always the one that touches first.
 TEST(Flight, no_other_point_touches_before_a_landing) {
   int landings = 0;
-  for (unsigned seed = 1; seed <= 6000; ++seed) {
+  for (unsigned seed = 1; seed <= 3000; ++seed) {
     const System system = make_system(test::random_scene(seed));
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
