@@ -265,9 +265,8 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   };
   for (; h > shortest; tried = true, ++counts.rejected) {
     if (counts.rhs_evaluations - evaluations_before > bounds.evaluations) return give_up();
-    if (tried && spent() > bounds.cost) return give_up();
-    const long most_cost = tried ? bounds.cost : bounds.first_cost;
-    if (!equations_.solve(h, counts, bounds.easily, most_cost - spent())) {
+    if (spent() > bounds.cost) return give_up();
+    if (!equations_.solve(h, counts, bounds.easily, bounds.most_cost - spent())) {
       if (bounds.easily) return give_up();
       h *= kRetry;
       continue;

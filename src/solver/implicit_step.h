@@ -22,7 +22,8 @@ struct StepBounds {
   bool easily = false;  ///< given up at the first length whose equations are not solved in a few iterations
   /// Given up when a shorter length has the larger error: it begins to see a ring that the longer one passes over.
   bool passes_over = false;
-  long first_cost = kAny, cost = kAny;  ///< StageEquations::cost() of the first length, and of all, before it is given up
+  /// StageEquations::cost() after which no further length is tried, and after which the one at hand is given up.
+  long cost = kAny, most_cost = kAny;
 };
 
 class ImplicitStep {

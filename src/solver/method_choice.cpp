@@ -84,9 +84,9 @@ constexpr double kShortestTrial = 1.2;
 
 /// The same for a step that passes over a ring. It is tried where the normal forces change by this share at most in a
 /// series step, and where the way that a step may go would cost the series as much as so many usual implicit steps, of
-/// which its first length may take this share; where next to nothing rings, so many series steps are enough. Further
-/// lengths are tried within as much, but between the fewest and the most evaluations here. For each time that the way
-/// costs so many the forces may change by as much again, up to so many times; then it may take the fewest evaluations,
+/// which it may take this share, but not less than the fewest evaluations; where next to nothing rings, so many series
+/// steps are enough. A further length is tried within as much, but not after the most evaluations. For each time that
+/// the way costs so many the forces may change by as much again, up to so many times; then none is after the fewest,
 /// and where these cost no more than a series step they may change by any share.
 constexpr double kShortestPassing = 3.0, kMostRing = 6e-2, kPassingWay = 9.0, kPassingShare = 0.2, kNoRing = 1e-9;
 constexpr double kLongPassingWay = 20.0, kMostRings = 4.0;
@@ -167,8 +167,8 @@ void MethodChoice::start_passing_over(double step, double longest, double change
   paces_[kind_] = {step / series_cost(), kPaceKnown};
   constexpr double kFewest = kFewestPassingEvaluations, kMost = std::numeric_limits<int>::max();
   const double share = kPassingShare * longest / pace() / kKind[kind_].evaluation;
-  first_passing_cost_ = static_cast<long>(std::clamp(share, kFewest, kMost));
-  passing_cost_ = change > kMostRing ? kFewestPassingEvaluations : std::min(first_passing_cost_, kMostPassingEvaluations);
+  most_passing_cost_ = static_cast<long>(std::clamp(share, kFewest, kMost));
+  passing_cost_ = change > kMostRing ? kFewestPassingEvaluations : std::min(most_passing_cost_, kMostPassingEvaluations);
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }
@@ -236,7 +236,7 @@ StepBounds MethodChoice::bounds(double longest) const {
     case Attempt::early_trial: return {longest, shortest, most};
     case Attempt::trial: return {longest, shortest, resumes ? paid : most, false, resumes};
     case Attempt::passes_over: 
-      return {longest, kShortestPassing * pace(), StepBounds::kAny, false, true, first_passing_cost_, passing_cost_};
+      return {longest, kShortestPassing * pace(), StepBounds::kAny, false, true, passing_cost_, most_passing_cost_};
     case Attempt::ordinary: break;
   }
   return {longest, 0.0, paid};

@@ -120,8 +120,8 @@ class MethodChoice {
   Attempt attempt_ = Attempt::ordinary;
   double early_reach_ = 0.0;      ///< how long an early trial may become
   double retried_length_ = 0.0;   ///< with which the next trial begins at most, after one was given up; 0: any
-  /// What the first step of a trial may take to pass over a ring, with its first length, and with all.
-  long first_passing_cost_ = 0, passing_cost_ = 0;
+  /// What the first step of a trial may take to pass over a ring, before a further length and with all.
+  long passing_cost_ = 0, most_passing_cost_ = 0;
   bool tried_ = false;            ///< a trial has been made
   bool paid_ = false;             ///< an implicit step has gained
   double resumed_length_ = 0.0;   ///< of the trial, if it goes on where implicit steps have paid; 0: it does not

@@ -592,27 +592,28 @@ TEST(Implicit, a_step_that_is_to_be_easy_is_given_up_at_the_first_trouble) {
   EXPECT_GT(many, 0);
 }
 
-// An iteration evaluates the forces at all stages, after one at the start. The first length may take more than further
-// ones leave of it.
+// An iteration evaluates the forces at all stages, after one at the start. A length may take more than there has to be
+// left for it.
 TEST(Implicit, a_step_that_has_taken_what_it_may_is_given_up) {
   const System system = resting(0.6);
-  const auto evaluations = [&](long first_cost, long cost) {
+  const auto evaluations = [&](long cost, long most_cost) {
     ImplicitStep step(system, 1e-10);
     step.leave_start();
     Segment segment;
     segment.contacts = on_edge();
     SolverCounts counts;
     const double length =
-        step.take(system.start, kNoDrives, {10.0, 0.0, StepBounds::kAny, false, false, first_cost, cost}, segment, counts);
+        step.take(system.start, kNoDrives, {10.0, 0.0, StepBounds::kAny, false, false, cost, most_cost}, segment, counts);
     return std::pair{length > 0.0, counts.rhs_evaluations};
   };
   constexpr long kIteration = StageEquations::kStages;
   EXPECT_EQ(evaluations(20, 20), (std::pair{false, 1 + 3 * kIteration}));
-  const long of_first = evaluations(StepBounds::kAny, 20).second;
-  EXPECT_FALSE(evaluations(StepBounds::kAny, 20).first);
+  const auto [first_holds, of_first] = evaluations(20, StepBounds::kAny);
+  EXPECT_FALSE(first_holds);
   EXPECT_GT(of_first, 1 + 3 * kIteration);
-  EXPECT_FALSE(evaluations(StepBounds::kAny, of_first + 1).first);
-  EXPECT_GT(evaluations(StepBounds::kAny, of_first + 1).second, of_first);
+  const auto [second_holds, of_both] = evaluations(of_first, of_first + kIteration);
+  EXPECT_FALSE(second_holds);
+  EXPECT_EQ(of_both, of_first + 2 * kIteration);
   EXPECT_TRUE(evaluations(StepBounds::kAny, StepBounds::kAny).first);
 }
 

@@ -675,14 +675,14 @@ TEST(MethodChoice, the_way_over_a_ring_is_measured_by_what_it_costs_the_series) 
   EXPECT_FALSE(choice.passing_over_pays(1.0, 0.99 * kWay, 5.9e-2));
 }
 
-// But 30 evaluations, and where that is more than 100 these, within which further lengths are tried.
+// But 30 evaluations; and after 100 no further length is tried.
 TEST(MethodChoice, a_ring_may_take_a_fifth_of_what_the_way_costs_the_series) {
   constexpr long kFifth = static_cast<long>(5.0 / kEvaluation), kTen = static_cast<long>(50.0 / kEvaluation);  // 96, 961
   constexpr long kMost = std::numeric_limits<int>::max();
-  for (const auto& [way, of_first, of_all] :
+  for (const auto& [way, of_all, of_first_ones] :
        {std::tuple{25.0, kFifth, kFifth}, {4.0, 30L, 30L}, {250.0, kTen, 100L}, {HUGE_VAL, kMost, 100L}}) {
-    EXPECT_EQ(passing(way).bounds(kFar).first_cost, of_first) << way;
-    EXPECT_EQ(passing(way).bounds(kFar).cost, of_all) << way;
+    EXPECT_EQ(passing(way).bounds(kFar).most_cost, of_all) << way;
+    EXPECT_EQ(passing(way).bounds(kFar).cost, of_first_ones) << way;
   }
 }
 
@@ -704,7 +704,7 @@ TEST(MethodChoice, a_larger_ring_is_passed_over_where_the_way_is_longer) {
   EXPECT_FALSE(sliding.passing_over_pays(1.0, 1e3, 100.0));
   EXPECT_EQ(passing(kFar, 0.06).bounds(kFar).cost, 100);
   EXPECT_EQ(passing(kFar, 0.061).bounds(kFar).cost, 30);
-  EXPECT_GT(passing(kFar, 0.061).bounds(kFar).first_cost, 1000);
+  EXPECT_GT(passing(kFar, 0.061).bounds(kFar).most_cost, 1000);
 }
 
 TEST(MethodChoice, in_the_tanh_layer_only_what_hardly_rings_is_passed_over) {
