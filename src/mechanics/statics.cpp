@@ -21,7 +21,7 @@ constexpr double kFarthestTouch = 100.0;
 /// Moment left over in an equilibrium, relative to those that balance.
 constexpr double kBalanced = 1e-6;
 
-/// Secants after which a height is sought between two others instead; change that is rounding, relative to it.
+/// Secants after which a height is sought by other means; change of it that is rounding, relative to it.
 constexpr int kMostSecants = 8;
 constexpr double kLastDigits = 1e-15;
 
@@ -73,25 +73,31 @@ std::optional<double> balanced_height(const System& system, double x, double phi
   const auto lift = [&](double y) { return static_load(system, x, y, phi).force_y; };
   const double load = -lift(top);
   if (load <= 0.0) return std::nullopt;
-  // no shorter way carries it, where every site touches the base where it is stiffest
+  // no shorter way carries it, where every site touches the base where it is stiffest: double it until the part is
+  // pushed up
   const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
   double way = std::max(load / most_stiffness, kShortestWay);
-  // the forces grow in proportion to depth, until something else touches: the secant meets the balance in a few steps
-  double before = top, lift_before = -load, y = top - way;
-  for (int i = 0; i < kMostSecants; ++i) {
-    const double lift_here = lift(y);
-    const double next = y - lift_here * (y - before) / (lift_here - lift_before);
-    if (!(next < top)) break;
-    if (std::abs(next - y) <= kLastDigits * std::abs(y)) return next;
-    before = std::exchange(y, next);
-    lift_before = lift_here;
-  }
-  // it does not where the face that is touched changes: double the way until the part is pushed up
-  while (lift(top - way) < 0.0) {
+  struct Height {
+    double y, lift;
+  };
+  Height high{top, -load}, low{top - way, lift(top - way)};
+  while (low.lift < 0.0) {
     way *= 2.0;
     if (way > 1e9) return std::nullopt;
+    high = std::exchange(low, {top - way, lift(top - way)});
   }
-  return root_between(lift, top - way, top);
+  // the forces grow in proportion to depth until something else touches: the secant of the last two heights, or where
+  // it leads away the chord, meets the balance in a step or two
+  Height before = high, here = low;
+  for (int i = 0; i < kMostSecants; ++i) {
+    const auto root = [](const Height& a, const Height& b) { return b.y - b.lift * (b.y - a.y) / (b.lift - a.lift); };
+    double y = root(before, here);
+    if (!(y > low.y && y < high.y)) y = root(high, low);
+    if (std::abs(y - here.y) <= kLastDigits * std::abs(y)) return y;
+    before = std::exchange(here, {y, lift(y)});
+    (here.lift < 0.0 ? high : low) = here;
+  }
+  return root_between(lift, low.y, high.y);
 }
 
 }  // namespace
