@@ -19,7 +19,7 @@ constexpr double kProbeTolerance = 1e-3;
 /// Factors on rounding. Of several choices that rounding allows, the one that needs the least of it is taken: what is
 /// nearly the same now may grow apart. If it is larger than it was thought to be, no choice is consistent, and it is
 /// asked again.
-constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4};
+constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4, 1e6};
 
 /// Error of a friction force at an event, relative to the truncation error of a step, and its bounds.
 constexpr double kLimitErrors = 1e4, kSmallestLimitError = 1e-9, kLargestLimitError = 1e-3;
