@@ -189,12 +189,16 @@ TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {
   EXPECT_FALSE(judge(scene, Range::wild).breaks(Invariant::ends));
 }
 
-// Several contacts nearly coincide, and rounding decides how many of them hold; so do starts that differ in the last
-// digits, not every pair of them.
+// Rounding decides how these go on; so do starts that differ in the last digits, not every pair of them. In which scenes
+// it is so changes with the last digits of the solver: one is enough.
 TEST(Judge, tells_rounding_from_a_broken_mirror) {
-  const Verdict verdict = judge(random_scene(642213, Range::wild), Range::wild);
-  EXPECT_TRUE(verdict.faults.empty());
-  EXPECT_TRUE(verdict.sensitive);
+  int sensitive = 0;
+  for (const std::uint64_t seed : {655205u, 665442u, 665555u, 670323u, 672859u}) {
+    const Verdict verdict = judge(random_scene(seed, Range::wild), Range::wild);
+    EXPECT_TRUE(verdict.faults.empty()) << seed;
+    sensitive += verdict.sensitive;
+  }
+  EXPECT_GT(sensitive, 0);
 }
 
 // Sites of which none is the nearest, because they are equally near or all out of reach, and an outcome one of whose
