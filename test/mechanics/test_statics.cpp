@@ -125,7 +125,7 @@ TEST(Equilibrium, without_anything_to_rest_on_is_refused) {
 }
 
 /// Balance of all forces at rest, written from MODEL.md with every contact point by itself: x, y and moment.
-/// Friction enters as one tangential force t at the contact `on`.
+/// Friction enters as one tangential force t at the contact. No walls: beside the slot a corner is on the top.
 struct Balance {
   double x, y, moment;
   int loaded;
@@ -160,7 +160,7 @@ Balance balance(const System& s, const State& q, double t) {
     }
     const double bx = q.x + side * s.half_width * c + s.base_distance * n;
     const double by = q.y + side * s.half_width * n - s.base_distance * c;
-    if (s.contacts.corners && by < 0.0 && std::abs(bx) - s.slot_half_width > -by) push(bx, by, 0.0, 1.0, -by);
+    if (s.contacts.corners && by < 0.0 && std::abs(bx) > s.slot_half_width) push(bx, by, 0.0, 1.0, -by);
   }
   return b;
 }
@@ -200,6 +200,32 @@ TEST(Equilibrium, is_found_to_the_last_digit_on_any_base) {
         EXPECT_NEAR(b.moment, 0.0, 1e-15 * (1.0 + stiffness * b.loaded)) << stiffness << force << x;
       }
   EXPECT_GT(on_several, 0);
+}
+
+// Also where the part lies on edges and corners at once, or hardly on an edge, off which it slips when it is pressed
+// deeper.
+TEST(Equilibrium, is_found_however_the_part_lies) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int found = 0, on_several = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto set = [](const char* key, double value) { return std::string(key) + "=" + std::to_string(value); };
+    const double stiffness = std::pow(10.0, 2.5 + u(random));
+    try {
+      const System s = make_system(at_rest({"friction=null", "contacts=[edges, corners]", set("initial.x", 0.5 * u(random)),
+                                            set("gripper.anchor.phi", 0.5 * u(random)),
+                                            set("gripper.pressing_force", std::pow(10.0, u(random))),
+                                            "base.stiffness={y: " + std::to_string(stiffness) + "}"}));
+      const Balance b = balance(s, s.start, 0.0);
+      ++found;
+      on_several += b.loaded > 1;
+      EXPECT_NEAR(b.y, 0.0, 4e-15 * (1.0 + stiffness * b.loaded)) << i;
+    } catch (const SceneError&) {
+      // nothing to rest on, or it slips off
+    }
+  }
+  EXPECT_GT(found, 2000);
+  EXPECT_GT(on_several, 100);
 }
 
 // One contact and set-valued friction: it carries the horizontal force too, as far as f N.
