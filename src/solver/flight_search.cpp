@@ -285,10 +285,10 @@ class Search {
                  bend_of_change = most.slope * view.most_turning_rate() + most.bend * turning * turning;
     const double acceleration = std::abs(depth.acceleration) + depth.jerk * span,
                  speed = std::abs(depth.rate) + acceleration * span, way = std::abs(depth.value) + speed * span;
-    const double rate = relaxation.value * depth.rate + depth.acceleration +
-                        relaxation.slope * view.turning() * depth.value;
-    const double bend = (relaxation.value + change * span) * acceleration + depth.jerk + 2.0 * change * speed +
-                        bend_of_change * way;
+    const double rate =
+        relaxation.value * depth.rate + depth.acceleration + relaxation.slope * view.turning() * depth.value;
+    const double bend =
+        (relaxation.value + change * span) * acceleration + depth.jerk + 2.0 * change * speed + bend_of_change * way;
     return rate + 0.5 * bend * span < 0.0;
   }
 

@@ -19,7 +19,7 @@ struct StepBounds {
   double longest;
   double shortest = 0.0;
   long evaluations = kAny;  ///< of the forces, after which no further length is tried
-  bool easily = false;  ///< given up at the first length whose equations are not solved in a few iterations
+  bool easily = false;      ///< given up at the first length whose equations are not solved in a few iterations
   /// Given up when a shorter length has the larger error: it begins to see a ring that the longer one passes over.
   bool passes_over = false;
   /// StageEquations::cost() after which no further length is tried, and after which the one at hand is given up.

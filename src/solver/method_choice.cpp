@@ -168,7 +168,8 @@ void MethodChoice::start_passing_over(double step, double longest, double change
   constexpr double kFewest = kFewestPassingEvaluations, kMost = std::numeric_limits<int>::max();
   const double share = kPassingShare * longest / pace() / kKind[kind_].evaluation;
   most_passing_cost_ = static_cast<long>(std::clamp(share, kFewest, kMost));
-  passing_cost_ = change > kMostRing ? kFewestPassingEvaluations : std::min(most_passing_cost_, kMostPassingEvaluations);
+  passing_cost_ =
+      change > kMostRing ? kFewestPassingEvaluations : std::min(most_passing_cost_, kMostPassingEvaluations);
   implicit_ = true;
   attempt_ = Attempt::passes_over;
 }
@@ -235,7 +236,7 @@ StepBounds MethodChoice::bounds(double longest) const {
     case Attempt::easy_trial: return {longest, shortest, kMostEasyTrialEvaluations, true};
     case Attempt::early_trial: return {longest, shortest, most};
     case Attempt::trial: return {longest, shortest, resumes ? paid : most, false, resumes};
-    case Attempt::passes_over: 
+    case Attempt::passes_over:
       return {longest, kShortestPassing * pace(), StepBounds::kAny, false, true, passing_cost_, most_passing_cost_};
     case Attempt::ordinary: break;
   }

@@ -189,8 +189,8 @@ TEST(Judge, takes_a_solver_that_gives_up_for_a_fault_in_ordinary_scenes) {
   EXPECT_FALSE(judge(scene, Range::wild).breaks(Invariant::ends));
 }
 
-// Rounding decides how these go on; so do starts that differ in the last digits, not every pair of them. In which scenes
-// it is so changes with the last digits of the solver: one is enough.
+// Rounding decides how these go on; so do starts that differ in the last digits, not every pair of them. In which
+// scenes it is so changes with the last digits of the solver: one is enough.
 TEST(Judge, tells_rounding_from_a_broken_mirror) {
   int sensitive = 0;
   for (const std::uint64_t seed : {655205u, 665442u, 665555u, 670323u, 672859u}) {

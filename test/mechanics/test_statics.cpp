@@ -184,8 +184,8 @@ TEST(Equilibrium, loads_vanish_without_friction) {
       }
 }
 
-// On bases from soft to stiff, on one contact and, with corners on a soft base, pressed until more than one carries: what
-// is left over is what the last digit of the height makes of the base's stiffness.
+// On bases from soft to stiff, on one contact and, with corners on a soft base, pressed until more than one carries:
+// what is left over is what the last digit of the height makes of the base's stiffness.
 TEST(Equilibrium, is_found_to_the_last_digit_on_any_base) {
   int on_several = 0;
   for (const double stiffness : {30.0, 1e3, 1e6, 1e9, 1e12})
@@ -212,10 +212,10 @@ TEST(Equilibrium, is_found_however_the_part_lies) {
     const auto set = [](const char* key, double value) { return std::string(key) + "=" + std::to_string(value); };
     const double stiffness = std::pow(10.0, 2.5 + u(random));
     try {
-      const System s = make_system(at_rest({"friction=null", "contacts=[edges, corners]", set("initial.x", 0.5 * u(random)),
-                                            set("gripper.anchor.phi", 0.5 * u(random)),
-                                            set("gripper.pressing_force", std::pow(10.0, u(random))),
-                                            "base.stiffness={y: " + std::to_string(stiffness) + "}"}));
+      const System s = make_system(
+          at_rest({"friction=null", "contacts=[edges, corners]", set("initial.x", 0.5 * u(random)),
+                   set("gripper.anchor.phi", 0.5 * u(random)), set("gripper.pressing_force", std::pow(10.0, u(random))),
+                   "base.stiffness={y: " + std::to_string(stiffness) + "}"}));
       const Balance b = balance(s, s.start, 0.0);
       ++found;
       on_several += b.loaded > 1;

@@ -602,8 +602,8 @@ TEST(Implicit, a_step_that_has_taken_what_it_may_is_given_up) {
     Segment segment;
     segment.contacts = on_edge();
     SolverCounts counts;
-    const double length =
-        step.take(system.start, kNoDrives, {10.0, 0.0, StepBounds::kAny, false, false, cost, most_cost}, segment, counts);
+    const double length = step.take(system.start, kNoDrives,
+                                    {10.0, 0.0, StepBounds::kAny, false, false, cost, most_cost}, segment, counts);
     return std::pair{length > 0.0, counts.rhs_evaluations};
   };
   constexpr long kIteration = StageEquations::kStages;

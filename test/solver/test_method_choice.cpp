@@ -677,7 +677,8 @@ TEST(MethodChoice, the_way_over_a_ring_is_measured_by_what_it_costs_the_series) 
 
 // But 30 evaluations; and after 100 no further length is tried.
 TEST(MethodChoice, a_ring_may_take_a_fifth_of_what_the_way_costs_the_series) {
-  constexpr long kFifth = static_cast<long>(5.0 / kEvaluation), kTen = static_cast<long>(50.0 / kEvaluation);  // 96, 961
+  constexpr long kFifth = static_cast<long>(5.0 / kEvaluation),
+                 kTen = static_cast<long>(50.0 / kEvaluation);  // 96, 961
   constexpr long kMost = std::numeric_limits<int>::max();
   for (const auto& [way, of_all, of_first_ones] :
        {std::tuple{25.0, kFifth, kFifth}, {4.0, 30L, 30L}, {250.0, kTen, 100L}, {HUGE_VAL, kMost, 100L}}) {
