@@ -280,13 +280,13 @@ class Search {
     if (system_.recovery) return false;
     const RelaxationRate relaxation = relaxation_rate(system_, face, view.tilt().cos, view.tilt().sin);
     const RelaxationBounds most = relaxation_bounds(system_, face);
-    const double turning = view.most_turning();
+    const double turning = view.most_omega();
     const double change = most.slope * turning,
-                 bend_of_change = most.slope * view.most_turning_rate() + most.bend * turning * turning;
+                 bend_of_change = most.slope * view.most_alpha() + most.bend * turning * turning;
     const double acceleration = std::abs(depth.acceleration) + depth.jerk * span,
                  speed = std::abs(depth.rate) + acceleration * span, way = std::abs(depth.value) + speed * span;
     const double rate =
-        relaxation.value * depth.rate + depth.acceleration + relaxation.slope * view.turning() * depth.value;
+        relaxation.value * depth.rate + depth.acceleration + relaxation.slope * view.omega() * depth.value;
     const double bend =
         (relaxation.value + change * span) * acceleration + depth.jerk + 2.0 * change * speed + bend_of_change * way;
     return rate + 0.5 * bend * span < 0.0;

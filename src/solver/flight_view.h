@@ -61,10 +61,10 @@ class FlightView {
   Clearance clearance(const PointMotion& motion, const Region& region, Face pinned, double horizon) const;
 
   const Tilt& tilt() const { return tilt_; }
-  /// phi' now, and bounds on |phi'| and |phi''| as far as this view reaches.
-  double turning() const { return state_.omega; }
-  double most_turning() const { return turning(outlook_.rate); }
-  double most_turning_rate() const { return turning(outlook_.second); }
+  /// omega now, and bounds on |omega| and on its rate |alpha| as far as this view reaches.
+  double omega() const { return state_.omega; }
+  double most_omega() const { return turning(outlook_.rate); }
+  double most_alpha() const { return turning(outlook_.second); }
 
  private:
   /// From the mass centre to a corner.
