@@ -43,7 +43,7 @@ struct Part {
 /// The hole. Its half width is part.half_width + clearance.
 struct Slot {
   double clearance = 0.0;       ///< delta, per side
-  std::optional<double> depth;  ///< of the floor below the top surface; absent: no floor
+  std::optional<double> depth;  ///< of the floor below the top surface, touched with walls only; absent: no floor
 };
 
 /// One coordinate of the part in its gripper: inertia q'' + damping q' + stiffness (q - anchor) = forces.

@@ -24,8 +24,6 @@ const std::vector<std::string> contact_words = {"edges", "corners", "walls"};
 
 const NumberRule axial_stiffness_rule = {"1, the unit of stiffness in a dimensionless scene", 1.0, 1.0, true, false};
 
-const char* const only_with_walls = "needs `walls` among the contacts";
-
 std::string message(const std::string& source, const std::vector<std::string>& faults) {
   std::string lines;
   for (const std::string& fault : faults) lines += (lines.empty() ? "" : "\n") + source + ": " + fault;
@@ -163,7 +161,6 @@ void SceneReader::read_slot() {
   TreeReader slot = root_.section("slot");
   scene_.slot.clearance = required(slot, "clearance", positive_number, Quantity::length);
   scene_.slot.depth = number(slot, "depth", positive_number, Quantity::length);
-  if (scene_.slot.depth && lacks_walls()) slot.fault("depth", only_with_walls);
   slot.refuse_unknown_keys();
 }
 
@@ -310,11 +307,12 @@ void SceneReader::read_trial() {
   settings.inserted_depth = number(trial, "inserted_depth", positive_number, Quantity::length);
   settings.force_limit = number(trial, "force_limit", positive_number, Quantity::force);
 
-  const std::optional<double> depth = scene_.slot.depth;
-  if (settings.inserted_depth && lacks_walls()) trial.fault("inserted_depth", only_with_walls);
-  if (depth && settings.inserted_depth.value_or(0.0) > *depth)
+  const bool has_floor = scene_.contacts.walls && scene_.slot.depth;
+  if (settings.inserted_depth && lacks_walls())
+    trial.fault("inserted_depth", "needs `walls` among the contacts");
+  if (has_floor && settings.inserted_depth.value_or(0.0) > *scene_.slot.depth)
     trial.fault("inserted_depth", "must be <= slot.depth: the floor ends the insertion");
-  if (depth && settings.aligned_depth > *depth)
+  if (has_floor && settings.aligned_depth > *scene_.slot.depth)
     trial.fault("aligned_depth", "must be <= slot.depth: the floor ends the insertion");
   if (settings.inserted_depth && settings.aligned_depth > *settings.inserted_depth)
     trial.fault("aligned_depth", "must be <= trial.inserted_depth: a part is aligned before it is inserted");

@@ -202,8 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"solver={accuracy: high}", "solver.accuracy: high", "from 1e-9 to 0.1"},
                       Mistake{"solver.step_limit=1.5", "solver.step_limit: 1.5", "whole number"}));
 
-TEST(Refusals, DepthsNeedWalls) {
-  expect_one_fault(least, {"slot.depth=1", "slot.depth: 1", "walls"});
+TEST(Refusals, InsertedDepthNeedsWalls) {
   expect_one_fault(least, {"trial.inserted_depth=1", "trial.inserted_depth: 1", "walls"});
 }
 

@@ -93,6 +93,8 @@ TEST(NeutralEffect, corners_and_walls_out_of_reach) {
   }
 }
 
+TEST(NeutralEffect, slot_depth_without_walls) { expect_same(with({}), with({"slot.depth=0.01"})); }
+
 TEST(NeutralEffect, second_excitation_without_amplitude) {
   for (const char* direction : {"x", "y", "phi"})
     for (const char* waveform : {"sine", "square", "triangle", "chirp, end_frequency: 11.0, sweep_time: 3.0"})
