@@ -27,14 +27,14 @@ struct Kind {
 /// sticking adds is softer than the base, the tanh layer is not; two that stick hold the part.
 constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;
 constexpr std::array<Kind, 9> kKind = {{{1.0, 0.052, 0},
-                                        {2.5, 0.066, 1},
-                                        {2.5, 0.066, 1},
+                                        {2.1, 0.066, 1},
+                                        {2.1, 0.066, 1},
                                         {1.6, 0.058, 0},
-                                        {5.0, 0.13, 1},
-                                        {6.6, 0.17, 2},
+                                        {4.7, 0.13, 1},
+                                        {6.1, 0.17, 2},
                                         {1.2, 0.092, 3},
-                                        {3.3, 0.1, 4},
-                                        {3.9, 0.165, 4}}};
+                                        {2.4, 0.1, 4},
+                                        {2.6, 0.165, 4}}};
 
 /// What a power more than usual adds to the cost of a series step.
 constexpr double kPower = 0.03;

@@ -83,15 +83,9 @@ class MotionSeries {
     bool turning = false;               ///< k(n), h(n) change with the tilt
     double stiffness = 0.0, damping = 0.0;
     // known to the power that is made
-    PairSeries push, drag;            ///< force per unit of N (with sliding friction), and of T
-    Series push_moment, drag_moment;  ///< moment likewise
-    Series k, h;                      ///< of turning contacts
-    Series tanh, sech2;               ///< regularised: tanh(V/eps) and 1 - tanh^2
-  };
-
-  struct Load {  ///< forces and moment of all contacts, one power
-    Pair force{};
-    double moment = 0.0;
+    QuadSeries push, drag;       ///< force and moment per unit of N (with sliding friction), and of T
+    PairSeries square, growth;   ///< turning: cos, cos^2; and cos, what N grows by per unit of cos^2
+    QuadSeries layer, layer_by;  ///< regularised, z = tanh(V/eps): z, z, z^2; and z, N, V' of the power before
   };
 
   void restart(int order, Segment& segment);
@@ -101,7 +95,8 @@ class MotionSeries {
   void trig_term(int k, Segment& segment);
   void centre_term(int k, const Segment& segment);
   void point_term(int point, int k, const Segment& segment);
-  void force_term(Contact& contact, int k, ContactSeries& series, const Segment& segment);
+  void force_term(Contact& contact, int k, ContactSeries& series);
+  double push_of_turning(Contact& contact, int k, double depth, double depth_rate);
   void tanh_term(Contact& contact, int k, ContactSeries& series) const;
   void hold_sticking(int k, Segment& segment);
   void set_up_holding();
@@ -116,8 +111,10 @@ class MotionSeries {
   double slip_rate_size(const Contact& contact, int k, const Segment& segment) const;
   double motion_size(int k, int known, const Segment& segment) const;
   void direction_terms(Contact& contact, int k) const;
-  Load contact_load(int k, const Segment& segment) const;
-  void accelerate(int k, const Load& load, Segment& segment) const;
+  void add_contact_load(int k, const Segment& segment, Quad& load) const;
+  void accelerate(int k, const Quad& load, Segment& segment) const;
+  void expand_any(Segment& segment);
+  void expand_several(Segment& segment);
   enum class Law { slides, layer, sticks };  ///< of a single contact
   bool expand_single(Segment& segment);
   bool expand_any_single(Segment& segment);

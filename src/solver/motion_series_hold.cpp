@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/motion_series.h"
+#include "solver/motion_series_terms.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -19,7 +19,7 @@ void MotionSeries::set_up_holding() {
   HoldingForces::Rows rows;
   for (int m = 0; m < sticking_count_; ++m) {
     const Contact& contact = contacts_[sticking_[m]];
-    rows[m] = {contact.drag[0][0], contact.drag[0][1], contact.drag_moment[0]};
+    rows[m] = {contact.drag[0][0], contact.drag[0][1], contact.drag[0][2]};
   }
   holding_.set(system_, rows, sticking_count_);
 }
@@ -57,18 +57,18 @@ double MotionSeries::slip_rate_size(const Contact& contact, int k, const Segment
       const double n = std::abs(series.normal_force[k - j]);
       x += std::abs(other.push[j][0]) * n;
       y += std::abs(other.push[j][1]) * n;
-      moment += std::abs(other.push_moment[j]) * n;
+      moment += std::abs(other.push[j][2]) * n;
       if (!other.separate_t) continue;
       const double t = std::abs(series.tangential_force[k - j]);
       x += std::abs(other.drag[j][0]) * t;
       y += std::abs(other.drag[j][1]) * t;
-      moment += std::abs(other.drag_moment[j]) * t;
+      moment += std::abs(other.drag[j][2]) * t;
     }
   }
   // V' along t, and what turning adds to it
   const double size = std::abs(contact.drag[0][0]) * system_.x.inverse_inertia * x +
                       std::abs(contact.drag[0][1]) * system_.y.inverse_inertia * y +
-                      std::abs(contact.drag_moment[0]) * system_.phi.inverse_inertia * moment;
+                      std::abs(contact.drag[0][2]) * system_.phi.inverse_inertia * moment;
   return size + motion_size(k, k + 1, segment);
 }
 

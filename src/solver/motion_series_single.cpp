@@ -237,8 +237,7 @@ VIBRATORY_ALIGNMENT_INLINE bool MotionSeries::expand_single_of(Segment& segment)
     // velocity of power n: with the T that leaves nothing of V'
     if (kSticks) {
       if (k == 0) {
-        contact.drag[0] = drag_0;
-        contact.drag_moment[0] = drag_moment_0;
+        contact.drag[0] = Quad{drag_0[0], drag_0[1], drag_moment_0, 0.0};
         set_up_holding();
       }
       const Pair free_rate = fast * force;

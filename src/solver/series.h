@@ -20,6 +20,14 @@ struct PairSeries {
   const Pair& operator[](int k) const { return coefficient[k]; }
 };
 
+/// Four series side by side: force along x and y, moment, and one that is free.
+struct QuadSeries {
+  Quad coefficient[kMaxOrder + 3];
+
+  Quad& operator[](int k) { return coefficient[k]; }
+  const Quad& operator[](int k) const { return coefficient[k]; }
+};
+
 /// 1/k.
 inline constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
   std::array<double, kMaxOrder + 4> inverse{};
@@ -27,17 +35,36 @@ inline constexpr std::array<double, kMaxOrder + 4> kInverse = [] {
   return inverse;
 }();
 
-/// Coefficient k of the product of a pair of series with a series. Two sums, so that additions do not wait for one
-/// another.
-inline Pair product_term(const PairSeries& a, const Series& b, int k) {
-  Pair even = a[0] * b[k], odd{};
-  int j = 1;
-  for (; j < k; j += 2) {
-    odd += a[j] * b[k - j];
-    even += a[j + 1] * b[k - j - 1];
+/// Adds terms of coefficient k of the products of several series with one or as many: those that have no power 0 of
+/// either. Two sums, so that additions do not wait for one another.
+template <typename SeveralSeries, typename OtherSeries, typename Sum>
+VIBRATORY_ALIGNMENT_INLINE void add_inner_product_term(const SeveralSeries& a, const OtherSeries& b, int k, Sum& sum) {
+  if (k < 2) return;
+  Sum other{};
+  const auto* left = &a[1];
+  const auto* right = &b[k - 1];
+  const auto* const last = &a[k - 1];
+  for (; left < last; left += 2, right -= 2) {
+    sum += left[0] * right[0];
+    other += left[1] * right[-1];
   }
-  if (j == k) odd += a[k] * b[0];
-  return even + odd;
+  if (left == last) sum += left[0] * right[0];
+  sum += other;
+}
+
+/// Adds coefficient k of the products of several series with one. What may have been found last is added last.
+template <typename SeveralSeries, typename Sum>
+VIBRATORY_ALIGNMENT_INLINE void add_product_term(const SeveralSeries& a, const Series& b, int k, Sum& sum) {
+  add_inner_product_term(a, b, k, sum);
+  if (k > 0) sum += a[k] * b[0];
+  sum += a[0] * b[k];
+}
+
+/// Coefficient k of the product of a pair of series with a series.
+VIBRATORY_ALIGNMENT_INLINE Pair product_term(const PairSeries& a, const Series& b, int k) {
+  Pair sum{};
+  add_product_term(a, b, k, sum);
+  return sum;
 }
 
 /// Coefficient k of the product of two series.
