@@ -25,8 +25,16 @@ constexpr double kBalanced = 1e-6;
 constexpr int kMostSecants = 8;
 constexpr double kLastDigits = 1e-15;
 
-/// Shortest way over which a height is sought.
-constexpr double kShortestWay = 1e-12;
+/// Shortest and longest way over which a height is sought.
+constexpr double kShortestWay = 1e-12, kLongestWay = 1e9;
+
+/// Breaks farther down than this are of faces that hardly lean; how far above a break what it ends is looked at, beside
+/// the sizes that it is computed from.
+constexpr double kFarthestBreak = 1e9, kBesideBreak = 4e-15;
+
+/// A contact takes its whole share of the horizontal force where its tangent is less steep than this (sine of the
+/// angle to the vertical), so that nothing jumps where that is upright.
+constexpr double kSteepTangent = 0.5;
 
 /// y at which the edge at distance rx from C (along x) lies on the lower boundary of the part.
 std::optional<double> edge_touch(const System& system, double rx, double phi) {
@@ -68,36 +76,92 @@ double root_between(const Function& f, double low, double high) {
   return 0.5 * (bracket.first + bracket.second);
 }
 
-/// Height at which the vertical forces balance, searched below `top` (where nothing is touched).
+/// Heights at which a site meets or leaves the other body, or another face becomes the nearest: between two of them all
+/// depths are linear in y and no contact changes.
+class Breaks {
+ public:
+  Breaks(const System& system, double x, double phi) {
+    const Tilt tilt = tilt_of(phi);
+    State level;
+    level.x = x;
+    level.phi = phi;
+    for (int i = 0; i < site_end(system); ++i) {
+      const auto site = static_cast<Site>(i);
+      if (!site_in_use(system, site)) continue;
+      const Vec2 p = site_point(system, level, site, tilt.cos, tilt.sin),
+                 rate = is_edge(site) ? Vec2{-tilt.sin, -tilt.cos} : Vec2{0.0, 1.0};
+      for (int half = 0; half < region_count(site); ++half) add_all_of(site_region(system, site, half), p, rate);
+    }
+  }
+
+  /// The highest one below y; -infinity: none.
+  double below(double y) const {
+    double highest = -INFINITY;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (heights_[i] < y) highest = std::max(highest, heights_[i]);
+    return highest;
+  }
+
+ private:
+  /// Where one of its conditions begins to hold, or two are the same. p: the point at y = 0, and its rate with y.
+  void add_all_of(const Region& region, const Vec2& p, const Vec2& rate) {
+    for (int i = 0; i < region.count; ++i) {
+      const RegionCondition& one = region.conditions[i];
+      const double value = one.value(p), slope = one.c1 * rate.x + one.c2 * rate.y;
+      add(-value / slope);
+      for (int j = 0; j < i; ++j) {
+        const RegionCondition& other = region.conditions[j];
+        add((other.value(p) - value) / (slope - other.c1 * rate.x - other.c2 * rate.y));
+      }
+    }
+  }
+  void add(double height) {
+    if (std::isfinite(height)) heights_[count_++] = height;
+  }
+
+  std::array<double, 32> heights_;  // of 6 for an edge, 3 for each half of a corner, 1 for the floor below it
+  std::size_t count_ = 0;
+};
+
+/// Height at which the vertical forces balance: the highest one below `top`, where nothing is touched.
 std::optional<double> balanced_height(const System& system, double x, double phi, double top) {
-  const auto lift = [&](double y) { return static_load(system, x, y, phi).force_y; };
-  const double load = -lift(top);
-  if (load <= 0.0) return std::nullopt;
-  // no shorter way carries it, where every site touches the base where it is stiffest: double it until the part is
-  // pushed up
-  const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
-  double way = std::max(load / most_stiffness, kShortestWay);
   struct Height {
     double y, lift;
   };
-  Height high{top, -load}, low{top - way, lift(top - way)};
-  while (low.lift < 0.0) {
+  const auto at = [&](double y) { return Height{y, static_load(system, x, y, phi).force_y}; };
+  Height high = at(top);
+  const double load = -high.lift;
+  if (load <= 0.0) return std::nullopt;
+  // down from break to break until the part is pushed up; below the last one, by ways that double
+  const Breaks breaks(system, x, phi);
+  const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
+  double way = std::max(load / most_stiffness, kShortestWay);
+  const double size = std::abs(x) + system.half_width + system.base_distance;
+  double reached = top;  // the last break
+  const auto next = [&](double y) {
+    reached = breaks.below(reached);
+    const double beside = kBesideBreak * (std::abs(reached) + size);
+    if (reached > top - kFarthestBreak) return at(reached + std::min(beside, 0.5 * (y - reached)));
     way *= 2.0;
-    if (way > 1e9) return std::nullopt;
-    high = std::exchange(low, {top - way, lift(top - way)});
+    return at(y - way);
+  };
+  Height low = next(top);
+  while (low.lift < 0.0) {
+    if (way > kLongestWay) return std::nullopt;
+    high = std::exchange(low, next(low.y));
   }
-  // the forces grow in proportion to depth until something else touches: the secant of the last two heights, or where
-  // it leads away the chord, meets the balance in a step or two
+  // the secant of the last two heights, or where it leads away the chord: between two breaks the forces grow in
+  // proportion to depth, but for friction
   Height before = high, here = low;
   for (int i = 0; i < kMostSecants; ++i) {
     const auto root = [](const Height& a, const Height& b) { return b.y - b.lift * (b.y - a.y) / (b.lift - a.lift); };
     double y = root(before, here);
     if (!(y > low.y && y < high.y)) y = root(high, low);
     if (std::abs(y - here.y) <= kLastDigits * std::abs(y)) return y;
-    before = std::exchange(here, {y, lift(y)});
+    before = std::exchange(here, at(y));
     (here.lift < 0.0 ? high : low) = here;
   }
-  return root_between(lift, low.y, high.y);
+  return root_between([&](double y) { return at(y).lift; }, low.y, high.y);
 }
 
 }  // namespace
@@ -129,12 +193,11 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
   const auto [c, s] = tilt_of(phi);
   ContactStates contacts{};
   place_contacts(system, state, contacts);
-  double force_x = -system.x.stiffness * (x - system.x.anchor),
-         force_y = -(y - system.y.anchor) * system.y.stiffness - system.weight;
-  double moment = -system.phi.stiffness * (phi - system.phi.anchor);
-  int loaded = 0;
-  ContactKinematics only;
-  double only_force = 0.0;
+  // normal forces, and friction if it is whole; 0 where nothing is loaded
+  struct Push {
+    double x, y, moment, drag_x, drag_y, drag_moment;
+  };
+  std::array<Push, kSiteCount> pushes{};
   for (int i = 0; i < kSiteCount; ++i) {
     if (!contacts[i].touching()) continue;
     const auto site = static_cast<Site>(i);
@@ -142,18 +205,24 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     const ContactKinematics k = contact_kinematics(system, state, site, contacts[i].face, p, c, s);
     const double n = stiffness_of(system, contacts[i].face, c, s) * k.depth;
     if (n <= 0.0) continue;
-    force_x += n * k.normal.x;
-    force_y += n * k.normal.y;
-    moment += n * cross(k.lever, k.normal);
-    only = k;
-    only_force = n;
-    ++loaded;
+    const double t = system.friction * n * std::clamp(k.tangent.x / kSteepTangent, -1.0, 1.0);
+    pushes[i] = {n * k.normal.x,  n * k.normal.y,  n * cross(k.lever, k.normal),
+                 t * k.tangent.x, t * k.tangent.y, t * cross(k.lever, k.tangent)};
   }
-  if (loaded == 1 && system.x.moves && system.friction > 0.0 && system.regularization == 0.0 && only.tangent.x != 0.0) {
-    const double limit = system.friction * only_force;
-    const double t = std::clamp(-force_x / only.tangent.x, -limit, limit);
-    force_y += t * only.tangent.y;
-    moment += t * cross(only.lever, only.tangent);
+  // both sites of a pair first: the mirror image adds them up the other way
+  const auto sum_of = [&pushes](double Push::*of) {
+    double sum = 0.0;
+    for (int i = 0; i < kSiteCount; i += 2) sum += pushes[i].*of + pushes[i + 1].*of;
+    return sum;
+  };
+  double force_y = sum_of(&Push::y) - (y - system.y.anchor) * system.y.stiffness - system.weight;
+  double moment = sum_of(&Push::moment) - system.phi.stiffness * (phi - system.phi.anchor);
+  const double whole = sum_of(&Push::drag_x);
+  if (system.x.moves && system.regularization == 0.0 && whole > 0.0) {
+    const double force_x = sum_of(&Push::x) - system.x.stiffness * (x - system.x.anchor);
+    const double share = std::clamp(-force_x / whole, -1.0, 1.0);
+    force_y += share * sum_of(&Push::drag_y);
+    moment += share * sum_of(&Push::drag_moment);
   }
   return {force_y, moment};
 }
@@ -183,26 +252,26 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
   const double begin = system.phi.anchor;
   const double first = moment(begin);
   if (std::isnan(first)) return false;
-  system.start.phi = begin;
-  if (first != 0.0) {
-    // towards the side to which it turns the part; the same numbers for the mirrored scene
-    const double direction = first > 0.0 ? 1.0 : -1.0;
-    const auto turning = [&](double way) { return direction * moment(begin + direction * way); };
-    double low = 0.0, high = 0.0, step = 1e-4;
-    for (;;) {
-      high = low + step;
-      if (high > 0.5 * kPi) return false;
-      const double value = turning(high);
-      if (std::isnan(value)) return false;
-      if (!(value > 0.0)) break;
-      low = high;
-      step = std::min(1.5 * step, 0.02);
-    }
-    system.start.phi = begin + direction * root_between(turning, low, high);
-  }
-  if (!settle_height(system.start.phi, system.start.y)) return false;
   // where the touching point changes the moment jumps, and its change of sign is no equilibrium
-  return std::abs(moment(system.start.phi)) <= kBalanced * moment_scale(system, system.start.phi);
+  const auto rests_at = [&](double phi) {
+    system.start.phi = phi;
+    return settle_height(phi, system.start.y) && std::abs(moment(phi)) <= kBalanced * moment_scale(system, phi);
+  };
+  if (first == 0.0) return rests_at(begin);
+  // towards the side to which it turns the part; the same numbers for the mirrored scene
+  const double direction = first > 0.0 ? 1.0 : -1.0;
+  const auto turning = [&](double way) { return direction * moment(begin + direction * way); };
+  double low = 0.0, high = 0.0, step = 1e-4;
+  for (;;) {
+    high = low + step;
+    if (high > 0.5 * kPi) return false;
+    const double value = turning(high);
+    if (std::isnan(value)) return false;
+    if (!(value > 0.0)) break;
+    low = high;
+    step = std::min(1.5 * step, 0.02);
+  }
+  return rests_at(begin + direction * root_between(turning, low, high));
 }
 
 }  // namespace vibratory_alignment

@@ -17,8 +17,9 @@ struct StaticLoad {
   double force_y = 0.0, moment = 0.0;
 };
 
-/// Load at rest in (x, y, phi). Friction holds the horizontal force as far as it can (set-valued friction, one contact
-/// that carries all; none when the law is regularised, which gives no force at rest).
+/// Load at rest in (x, y, phi). Friction holds the horizontal force as far as it can: set-valued friction, all loaded
+/// contacts by the same share of f N, those with a steep tangent by less; none when the law is regularised, which gives
+/// no force at rest.
 StaticLoad static_load(const System& system, double x, double y, double phi);
 
 /// y and phi of the static equilibrium at system.start.x; what is given stays. With `pressing_force`, y_a follows phi

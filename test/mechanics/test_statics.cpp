@@ -12,6 +12,7 @@
 
 #include "../support/scenes.h"
 #include "mechanics/site_rules.h"
+#include "model/number_text.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -228,6 +229,38 @@ TEST(Equilibrium, is_found_however_the_part_lies) {
   EXPECT_GT(on_several, 100);
 }
 
+// Of several heights at which it would be carried the part rests at the first one that it comes down to: so on an edge
+// that it covers by hardly more than it is pressed into it, beyond which the edge is in its side and carries little.
+TEST(Equilibrium, is_the_first_one_from_above) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const auto set = [](const char* key, double value) { return std::string(key) + "=" + std::to_string(value); };
+  int found = 0, hardly_covered = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double stiffness = std::pow(10.0, 3.0 + u(random)), force = std::pow(10.0, u(random));
+    const double covered = force / stiffness * std::pow(10.0, u(random));
+    const bool is_level = i % 2 == 0;
+    const Scene scene = scene_of(
+        plain, {"friction=null", "contacts=[edges, corners]", "initial.y=null", set("initial.x", 0.083 + covered),
+                set("initial.phi", is_level ? 0.0 : 0.3 * u(random)), set("gripper.pressing_force", force),
+                "base.stiffness={y: " + std::to_string(stiffness) + "}"});
+    try {
+      const System s = make_system(scene);
+      const double top = *touch_height(s, s.start.x, s.start.phi);
+      State q = s.start;
+      double way = force / (12.0 * stiffness);
+      while (q.y = top - way, balance(s, q, 0.0).y < 0.0) way *= 1.01;
+      EXPECT_GE(s.start.y, q.y - 1e-15) << i;
+      ++found;
+      hardly_covered += is_level && covered < 1.3 * way && covered > way;
+    } catch (const SceneError&) {
+      // nothing carries it
+    }
+  }
+  EXPECT_GT(found, 1500);
+  EXPECT_GT(hardly_covered, 50);
+}
+
 // One contact and set-valued friction: it carries the horizontal force too, as far as f N.
 TEST(Equilibrium, friction_holds_the_part_in_place) {
   for (const char* x : {"initial.x=0.21", "initial.x=0.35", "initial.x=-0.3"}) {
@@ -307,6 +340,33 @@ TEST(Equilibrium, velocities_of_locked_motions_are_none) {
   EXPECT_EQ(s.start.vx, 0.0);
   EXPECT_EQ(s.start.omega, 0.0);
   EXPECT_EQ(s.start.vy, 0.5);
+}
+
+// Mirrored scenes rest in mirrored places, on however many contacts.
+TEST(Equilibrium, is_mirrored_to_the_last_digit) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int found = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = 0.5 * u(random), tilt = 0.3 * u(random), anchor = 0.3 * u(random),
+                 force = std::pow(10.0, u(random));
+    const auto mirrored = [&](double side) {
+      const auto set = [](const char* key, double value) { return std::string(key) + "=" + number_text(value); };
+      return at_rest({"contacts=[edges, corners]", "base.stiffness={y: 20}", set("initial.x", side * x),
+                      set("gripper.anchor.x", side * anchor), set("gripper.anchor.phi", side * tilt),
+                      set("gripper.pressing_force", force)});
+    };
+    if (refusal_of(mirrored(1.0)) != "none") {
+      EXPECT_NE(refusal_of(mirrored(-1.0)), "none") << i;
+      continue;
+    }
+    const System right = make_system(mirrored(1.0)), left = make_system(mirrored(-1.0));
+    ++found;
+    EXPECT_EQ(right.start.y, left.start.y) << i;
+    EXPECT_EQ(right.start.phi, -left.start.phi) << i;
+    EXPECT_EQ(right.y.anchor, left.y.anchor) << i;
+  }
+  EXPECT_GT(found, 500);
 }
 
 // Mirrored scenes rest in mirrored places.
