@@ -190,6 +190,7 @@ double EventSolver::usual_reach() {
 /// True when the series of a contact step have an event within `step`: those found stay, for a step that ends there.
 bool EventSolver::has_event(double step, const DriveForms& drives) {
   segment_.duration = searched_ = step;
+  segment_.coarse = false;
   find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found_);
   return found_.count > 0;
 }
@@ -334,7 +335,7 @@ long EventSolver::spent() const { return implicit_->cost() - cost_before_; }
 /// Automatic: settles a step of the length `gone` once its end is known; an event cuts it short, and the way to there
 /// is gone again.
 void EventSolver::settle(double gone, double longest) {
-  if (choice_.implicit())
+  if (implicit_now_)
     choice_.settle_implicit(gone, longest, spent(), follows_base_);
   else
     choice_.settle_series(gone, longest, found_.count > 0);

@@ -317,6 +317,7 @@ void MethodChoice::ring() {
 }
 
 void MethodChoice::distrust() {
+  may_pass_over_ = false;
   if (!implicit_) return;
   wait_longer();
   leave_to_series(kTrialAfter);

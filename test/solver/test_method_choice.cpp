@@ -645,6 +645,14 @@ TEST(MethodChoice, a_ring_that_has_been_passed_over_is_so_once) {
   EXPECT_FALSE(choice.may_pass_over());
 }
 
+TEST(MethodChoice, a_ring_whose_steps_undo_each_other_is_not_passed_over) {
+  MethodChoice choice = passing();
+  choice.settle_implicit(0.0, 501.0, kEffort);
+  EXPECT_TRUE(choice.may_pass_over());
+  choice.distrust();
+  EXPECT_FALSE(choice.may_pass_over());
+}
+
 // The next one, after a ring, goes on where that has paid, and is none of the easy ones.
 TEST(MethodChoice, a_step_that_has_passed_over_a_ring_has_paid) {
   MethodChoice choice = passing();
