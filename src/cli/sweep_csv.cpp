@@ -50,6 +50,12 @@ bool may_be_of_a_sweep(const std::string& path) {
   return found == mark.substr(0, found.size());
 }
 
+/// The first line of a sweep's file; none if it is none.
+std::optional<SweepHead> head_of(const std::string& path) {
+  std::string line;
+  return WholeLines(path).next(line) ? parse_head(line) : std::nullopt;
+}
+
 bool holds_rows_of_a_sweep(const std::string& path) {
   WholeLines lines(path);
   std::string line;
@@ -95,6 +101,7 @@ void SweepCsv::begin_or_continue(const std::string& path, bool resume, const See
     if (!may_be_of_a_sweep(file())) refuse(file(), "is in the way: rows come into a file of this name; remove it");
     if (holds_rows_of_a_sweep(file()))
       refuse(file(), "has rows of a sweep that did not end: continue it with --resume, or remove the file");
+    refuse_other_shard(path);
     fs::resize_file(file(), 0);
     begin_anew();
   } else if (fs::file_size(file()) == 0 && fs::exists(path)) {
@@ -108,6 +115,14 @@ void SweepCsv::begin_or_continue(const std::string& path, bool resume, const See
 
 void SweepCsv::refuse(const std::string& path, const std::string& reason) const {
   throw UsageError("--csv: " + path + ": " + reason);
+}
+
+/// The whole file of another shard of the same study is no older result.
+void SweepCsv::refuse_other_shard(const std::string& path) const {
+  const std::optional<SweepHead> old = head_of(path);
+  if (old && old->fingerprint == head_.fingerprint && shard_text(old->shard) != shard_text(head_.shard))
+    refuse(path,
+           "has shard " + shard_text(old->shard) + " of this study: give each shard a file of its own, or remove it");
 }
 
 std::string SweepCsv::begin() const { return head_text(head_) + "\n" + header_ + "\n"; }

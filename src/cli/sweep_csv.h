@@ -21,7 +21,7 @@ class SweepCsv {
   /// `header` names the columns. `resume`: hands the rows that PATH.part has of the same sweep, or PATH itself if it is
   /// whole, to `see_row`, cuts off a last line that is torn and continues behind it; a file that is not there is begun.
   /// Throws UsageError: for a file that cannot be written, that another process is writing, that is not of this sweep
-  /// (`resume`), or that has rows to be lost (not `resume`).
+  /// (`resume`), or that has rows to be lost, also those of another shard (not `resume`).
   SweepCsv(const std::string& path, const SweepHead& head, const std::string& header, bool resume,
            const SeeRow& see_row);
   ~SweepCsv();
@@ -44,6 +44,7 @@ class SweepCsv {
   std::string begin() const;
   void begin_anew();
   void begin_or_continue(const std::string& path, bool resume, const SeeRow& see_row);
+  void refuse_other_shard(const std::string& path) const;
   void close();
   std::uintmax_t take_over(const std::string& path, const SeeRow& see_row);
   [[noreturn]] void refuse(const std::string& path, const std::string& reason) const;

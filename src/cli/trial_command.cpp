@@ -1,6 +1,5 @@
 #include "cli/trial_command.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -85,12 +84,6 @@ std::string solver_list() {
   return list;
 }
 
-const SolverName* find_solver(const std::string& name) {
-  const auto found = std::find_if(solver_names.begin(), solver_names.end(),
-                                  [&](const SolverName& solver) { return name == solver.name; });
-  return found == solver_names.end() ? nullptr : &*found;
-}
-
 std::string check_solver(const std::string& name) {
   return find_solver(name) ? std::string() : name + " is not a solver; the solvers are " + solver_list();
 }
@@ -138,11 +131,6 @@ Scene load(const TrialCommandOptions& options, const std::string& file) {
   }
   if (solver && !solver->fixed_step && !options.step.empty()) {
     throw UsageError(std::string("--step: the solver ") + solver->name + " chooses its steps; give --tolerance");
-  }
-  const YAML::Node step = solver_key(tree, "step");
-  const bool has_step = !options.step.empty() || (step && !step.IsNull());
-  if (solver && solver->fixed_step && !options.solver.empty() && !has_step) {
-    throw UsageError(std::string("--solver: the solver ") + solver->name + " has a fixed step; give --step");
   }
   if (!options.accuracy.empty()) apply_setting(tree, "solver.accuracy=" + options.accuracy);
   if (!options.tolerance.empty()) apply_setting(tree, "solver.tolerance=" + options.tolerance);

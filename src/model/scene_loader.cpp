@@ -308,8 +308,7 @@ void SceneReader::read_trial() {
   settings.force_limit = number(trial, "force_limit", positive_number, Quantity::force);
 
   const bool has_floor = scene_.contacts.walls && scene_.slot.depth;
-  if (settings.inserted_depth && lacks_walls())
-    trial.fault("inserted_depth", "needs `walls` among the contacts");
+  if (settings.inserted_depth && lacks_walls()) trial.fault("inserted_depth", "needs `walls` among the contacts");
   if (has_floor && settings.inserted_depth.value_or(0.0) > *scene_.slot.depth)
     trial.fault("inserted_depth", "must be <= slot.depth: the floor ends the insertion");
   if (has_floor && settings.aligned_depth > *scene_.slot.depth)
@@ -342,8 +341,6 @@ void SceneReader::read_solver() {
       solver.fault(unused, "solver " + settings.name + " does not use it; it has `" + used + "`");
     else if (solver_name.fixed_step && solver.has("accuracy"))
       solver.fault("accuracy", "solver " + settings.name + " has no error control; it has `step`");
-    else if (solver_name.fixed_step && !solver.has("step"))
-      solver.fault("step", "must be a number > 0, the time that each step of solver " + settings.name + " takes");
   }
   if (solver.has("accuracy") && solver.has("tolerance"))
     solver.fault("accuracy", "it chooses the tolerance; give one of solver.accuracy and solver.tolerance");
@@ -351,9 +348,10 @@ void SceneReader::read_solver() {
   solver.refuse_unknown_keys();
 }
 
-/// What the accuracy leaves open. After scaling: it is a rule for dimensionless scenes.
+/// What the scene leaves open of its solver. After scaling: these are rules for dimensionless scenes.
 void SceneReader::choose_solver() {
   SolverSettings& settings = scene_.solver;
+  if (find_solver(settings.name)->fixed_step && !settings.step) settings.step = default_step(scene_);
   if (!settings.accuracy) return;
   if (!names_solver_) settings.name = solver_for_accuracy(scene_);
   settings.tolerance = tolerance_for_accuracy(*settings.accuracy);

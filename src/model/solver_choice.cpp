@@ -20,6 +20,13 @@ const char* solver_for_accuracy(const Scene& scene) {
   return contact_rate_ratio(scene) > kStiffRatio ? "auto" : "event";
 }
 
+double default_step(const Scene& scene) {
+  double rate = scene.fastest_excitation() * std::max(1.0, contact_rate_ratio(scene));
+  for (const GripperAxis* axis : {&scene.gripper.x, &scene.gripper.y, &scene.gripper.phi})
+    if (axis->moves) rate = std::max({rate, std::sqrt(axis->stiffness / axis->inertia), axis->damping / axis->inertia});
+  return kDefaultStep / rate;
+}
+
 double tolerance_for_accuracy(double accuracy) { return kToleranceShare * accuracy; }
 
 }  // namespace vibratory_alignment

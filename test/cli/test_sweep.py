@@ -143,6 +143,17 @@ class SummaryTest(SweepTestCase):
         quartiles = statistics.quantiles(durations, n=4, method="inclusive")
         self.assertEqual(["%.4g" % value for value in (lower, middle, upper)], ["%.4g" % value for value in quartiles])
 
+    def test_leaves_the_file_of_another_shard(self):
+        study = self.study()
+        self.sweep(study, "--csv", "out.csv", "--shard", "1/2")
+        first = self.bytes_of("out.csv")
+        for shard in (["--shard", "2/2"], ["--shard", "1/3"], []):
+            self.assert_refused(["sweep", study, "--csv", "out.csv"] + shard, "has shard 1/2 of this study")
+            self.assertEqual(self.bytes_of("out.csv"), first)
+        # the same one again, and that of another study, are replaced as any older result
+        self.sweep(study, "--csv", "out.csv", "--shard", "1/2")
+        self.sweep(self.study(samples={"count": 2, "seed": 9}), "--csv", "out.csv", "--shard", "2/2")
+
     def test_shows_the_digits_that_it_knows_of_many_trials(self):
         count = 100001
         study = self.study(vary=[{"initial.x": {"from": 0.1, "to": 0.2, "count": count}}], without=["samples"])

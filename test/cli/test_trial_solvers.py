@@ -42,6 +42,16 @@ class FixedStepTest(AlignTestCase):
                 self.assertEqual(report["steps"], 500)
                 self.assertEqual(report["rejected"], 0)
 
+    def test_takes_a_step_of_its_own_where_none_is_given(self):
+        exact = self.trial(self.scene())
+        for solver in self.solvers():
+            with self.subTest(solver):
+                report = self.trial(self.scene(), "--solver", solver)
+                self.assertEqual(report["outcome"], exact["outcome"])
+                self.assertAlmostEqual(report["final"]["x"], exact["final"]["x"], delta=5e-3)
+                same = self.trial(self.scene(), "--solver", solver, "--step", repr(report["solver"]["step"]))
+                self.assertEqual(same["final"], report["final"])
+
     def test_recording_changes_nothing(self):
         for solver in self.solvers():
             reports = []
@@ -73,13 +83,6 @@ class FixedStepTest(AlignTestCase):
         # another solver of the same kind keeps it, one of the other kind does not
         self.assertEqual(self.trial(path, "--solver", "rk4")["solver"]["step"], 1e-3)
         self.assertNotIn("step", self.trial(path, "--solver", "event")["solver"])
-
-    def test_missing_step_is_refused(self):
-        for solver in SOLVERS:
-            with self.subTest(solver):
-                self.assert_refused(["trial", self.scene(), "--solver", solver], "--step", solver)
-                path = self.scene(solver={"name": solver})
-                self.assert_refused(["trial", path], "solver.step", "missing", solver)
 
     def test_impossible_steps_are_refused(self):
         for step in ("0", "-1e-3", "nan", "inf", "x"):

@@ -188,7 +188,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"solver.step=0.1", "solver.step: 0.1", "does not use it"},
                       Mistake{"solver={name: rk4, tolerance: 0.1}", "solver.tolerance: 0.1", "does not use it"},
                       Mistake{"solver={name: rk4, step: 0}", "solver.step: 0", "> 0"},
-                      Mistake{"solver={name: ode}", "solver.step: missing", "each step of solver ode"},
                       Mistake{"solver.accuracy=1e-6", "solver.accuracy: 1e-6", "one of"},
                       Mistake{"solver={accuracy: 1e-6, step: 0.1}", "solver.step: 0.1", "does not use it"},
                       Mistake{"solver={name: rk4, accuracy: 1e-6}", "solver.accuracy: 1e-6", "no error control"},

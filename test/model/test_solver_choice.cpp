@@ -58,5 +58,29 @@ TEST(SolverChoice, RatioIsThatOfTheFrequencies) {
   EXPECT_NEAR(contact_rate_ratio(scene) / (std::sqrt(k / mass) / (2.0 * M_PI * frequency)), 1.0, 1e-12);
 }
 
+TEST(SolverChoice, AFixedStepThatIsNotGivenFollowsTheFastestMotion) {
+  const auto step = [](const char* solver, const std::vector<std::string>& settings) {
+    std::vector<std::string> all = {std::string("solver={name: ") + solver + "}"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return load(least, all).solver.step.value();
+  };
+  // no tilt: G = 1
+  for (const char* solver : {"rk4", "semi_implicit", "ode"}) {
+    EXPECT_DOUBLE_EQ(step(solver, {"excitation.frequency=40", "base={stiffness: {y: 100}}"}), 0.02 / 40.0);
+    EXPECT_DOUBLE_EQ(step(solver, {"base={stiffness: {y: 1e6}}"}), 0.02 / 1e3);
+    EXPECT_DOUBLE_EQ(step(solver, {"base={stiffness: {y: 100}, damping: {y: 1e5}}"}), 0.02 / 1e5);
+    EXPECT_DOUBLE_EQ(step(solver, {"base={stiffness: {y: 100}}", "gripper.damping.y=250"}), 0.02 / 250.0);
+    EXPECT_DOUBLE_EQ(step(solver, {"solver.step=0.25"}), 0.25);
+  }
+  EXPECT_FALSE(load(least, {}).solver.step);
+}
+
+// In seconds it is the same share of the period.
+TEST(SolverChoice, AFixedStepThatIsNotGivenHasTheUnitOfTheScene) {
+  const Scene scene = load(least_si, {"solver={name: rk4}", "base={stiffness: {y: 1.0}}", "gripper.stiffness.y=1.0",
+                                      "excitation.frequency=80"});
+  EXPECT_NEAR(scene.solver.step.value() * scene.fastest_excitation(), 0.02, 1e-15);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
