@@ -141,13 +141,15 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::force_term(Contact& contact, int k
 }
 
 /// Adds force and moment (x, y, phi, 0) of all contacts, power k. What holds a sticking contact is zero in this power
-/// as yet.
+/// as yet. Each contact's are a sum of their own: those of a symmetric part take each other away to the last digit.
 VIBRATORY_ALIGNMENT_INLINE void MotionSeries::add_contact_load(int k, const Segment& segment, Quad& load) const {
   for (int i = 0; i < segment.loaded_count; ++i) {
     const Contact& contact = contacts_[i];
     const ContactSeries& series = segment.loaded[i];
-    add_product_term(contact.push, series.normal_force, k, load);
-    if (contact.separate_t) add_product_term(contact.drag, series.tangential_force, k, load);
+    Quad own{};
+    add_product_term(contact.push, series.normal_force, k, own);
+    if (contact.separate_t) add_product_term(contact.drag, series.tangential_force, k, own);
+    load += own;
   }
 }
 

@@ -17,7 +17,7 @@ constexpr double kNearOverflow = 1e250;
 double integral(const Series& series, int order, double from, double to) {
   double at_from = 0.0, at_to = 0.0;
   for (int k = order; k >= 0; --k) {
-    const double c = series[k] / (k + 1);
+    const double c = series[k] * kInverse[static_cast<std::size_t>(k + 1)];
     at_from = at_from * from + c;
     at_to = at_to * to + c;
   }

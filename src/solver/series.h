@@ -56,7 +56,7 @@ VIBRATORY_ALIGNMENT_INLINE void add_inner_product_term(const SeveralSeries& a, c
 template <typename SeveralSeries, typename Sum>
 VIBRATORY_ALIGNMENT_INLINE void add_product_term(const SeveralSeries& a, const Series& b, int k, Sum& sum) {
   add_inner_product_term(a, b, k, sum);
-  if (k > 0) sum += a[k] * b[0];
+  if (k != 0) sum += a[k] * b[0];
   sum += a[0] * b[k];
 }
 
