@@ -1,6 +1,5 @@
 #include "trial/contact_impulse.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "mechanics/contact_frame.h"
@@ -12,33 +11,17 @@ namespace {
 /// Products that differ by less are the same but for rounding.
 constexpr double kSame = 1e-15;
 
-/// Terms of (cos phi, sin phi) that are less do not change their last digits.
-constexpr double kNoTurn = 1e-18;
-
 /// a + i b times c + i d.
 Pair product(const Pair& a, const Pair& b) { return Pair{a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]}; }
 
-/// Highest power of e1 = (cos phi, sin phi) that matters until `to`: few do, as a part hardly turns in one segment.
-int last_power(const Segment& segment, double to) {
-  int last = 0;
-  double power = 1.0;
-  for (int k = 1; k <= segment.order; ++k) {
-    power *= to;
-    if (std::max(std::abs(segment.cos_phi[k]), std::abs(segment.sin_phi[k])) * power > kNoTurn) last = k;
-  }
-  return last;
-}
-
-/// Integral of force times e1.
+/// Integral of force times e1 = (cos phi, sin phi).
 Pair turned_integral(const Series& force, const Segment& segment, double from, double to) {
-  const int order = segment.order, last = last_power(segment, to);
+  const int order = segment.order;
   PairSeries e1;
-  for (int k = 0; k <= last; ++k) e1[k] = Pair{segment.cos_phi[k], segment.sin_phi[k]};
+  for (int k = 0; k <= order; ++k) e1[k] = Pair{segment.cos_phi[k], segment.sin_phi[k]};
   Pair at_from{}, at_to{};
   for (int k = order; k >= 0; --k) {
-    Pair product = e1[0] * force[k];
-    for (int j = 1; j <= std::min(k, last); ++j) product += e1[j] * force[k - j];
-    const Pair term = kInverse[static_cast<std::size_t>(k + 1)] * product;
+    const Pair term = kInverse[static_cast<std::size_t>(k + 1)] * product_term(e1, force, k);
     at_from = at_from * from + term;
     at_to = at_to * to + term;
   }
