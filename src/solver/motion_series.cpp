@@ -1,7 +1,6 @@
 #include "solver/motion_series_terms.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mechanics/tilt.h"
 #include "solver/turning_face.h"
