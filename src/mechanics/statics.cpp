@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mechanics/contact_frame.h"
+#include "mechanics/height_breaks.h"
 #include "mechanics/site_rules.h"
 #include "mechanics/tilt.h"
 
@@ -77,53 +78,6 @@ double root_between(const Function& f, double low, double high) {
   return 0.5 * (bracket.first + bracket.second);
 }
 
-/// Heights at which a site meets or leaves the other body, or another face becomes the nearest: between two of them all
-/// depths are linear in y and no contact changes.
-class Breaks {
- public:
-  Breaks(const System& system, double x, double phi) {
-    const Tilt tilt = tilt_of(phi);
-    State level;
-    level.x = x;
-    level.phi = phi;
-    for (int i = 0; i < site_end(system); ++i) {
-      const auto site = static_cast<Site>(i);
-      if (!site_in_use(system, site)) continue;
-      const Vec2 p = site_point(system, level, site, tilt.cos, tilt.sin),
-                 rate = is_edge(site) ? Vec2{-tilt.sin, -tilt.cos} : Vec2{0.0, 1.0};
-      for (int half = 0; half < region_count(site); ++half) add_all_of(site_region(system, site, half), p, rate);
-    }
-  }
-
-  /// The highest one below y; -infinity: none.
-  double below(double y) const {
-    double highest = -INFINITY;
-    for (std::size_t i = 0; i < count_; ++i)
-      if (heights_[i] < y) highest = std::max(highest, heights_[i]);
-    return highest;
-  }
-
- private:
-  /// Where one of its conditions begins to hold, or two are the same. p: the point at y = 0, and its rate with y.
-  void add_all_of(const Region& region, const Vec2& p, const Vec2& rate) {
-    for (int i = 0; i < region.count; ++i) {
-      const RegionCondition& one = region.conditions[i];
-      const double value = one.value(p), slope = one.c1 * rate.x + one.c2 * rate.y;
-      add(-value / slope);
-      for (int j = 0; j < i; ++j) {
-        const RegionCondition& other = region.conditions[j];
-        add((other.value(p) - value) / (slope - other.c1 * rate.x - other.c2 * rate.y));
-      }
-    }
-  }
-  void add(double height) {
-    if (std::isfinite(height)) heights_[count_++] = height;
-  }
-
-  std::array<double, 32> heights_;  // of 6 for an edge, 3 for each half of a corner, 1 for the floor below it
-  std::size_t count_ = 0;
-};
-
 /// Height at which the vertical forces balance: the highest one below `top`, where nothing is touched.
 std::optional<double> balanced_height(const System& system, double x, double phi, double top) {
   struct Height {
@@ -134,7 +88,7 @@ std::optional<double> balanced_height(const System& system, double x, double phi
   const double load = -high.lift;
   if (load <= 0.0) return std::nullopt;
   // down from break to break until the part is pushed up; below the last one, by ways that double
-  const Breaks breaks(system, x, phi);
+  const HeightBreaks breaks(system, x, phi);
   const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
   double way = std::max(load / most_stiffness, kShortestWay);
   const double size = std::abs(x) + system.half_width + system.base_distance;
