@@ -27,12 +27,11 @@ constexpr double kBalanced = 1e-6;
 constexpr int kMostSecants = 8;
 constexpr double kLastDigits = 1e-15;
 
-/// Shortest and longest way over which a height is sought.
+/// Shortest and longest way over which a height is sought: breaks farther down are of faces that hardly lean.
 constexpr double kShortestWay = 1e-12, kLongestWay = 1e9;
 
-/// Breaks farther down than this are of faces that hardly lean; how far above a break what it ends is looked at, beside
-/// the sizes that it is computed from.
-constexpr double kFarthestBreak = 1e9, kBesideBreak = 4e-15;
+/// How far above a break what it ends is looked at, beside the sizes that it is computed from.
+constexpr double kBesideBreak = 4e-15;
 
 /// A contact takes its whole share of the horizontal force where its tangent is less steep than this (sine of the
 /// angle to the vertical), so that nothing jumps where that is upright.
@@ -96,7 +95,7 @@ std::optional<double> balanced_height(const System& system, double x, double phi
   const auto next = [&](double y) {
     reached = breaks.below(reached);
     const double beside = kBesideBreak * (std::abs(reached) + size);
-    if (reached > top - kFarthestBreak) return at(reached + std::min(beside, 0.5 * (y - reached)));
+    if (reached > top - kLongestWay) return at(reached + std::min(beside, 0.5 * (y - reached)));
     way *= 2.0;
     return at(y - way);
   };

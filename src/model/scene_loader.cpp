@@ -332,14 +332,13 @@ void SceneReader::read_solver() {
   if (const auto limit = solver.number("step_limit", positive_whole_number))
     settings.step_limit = static_cast<long>(*limit);
 
-  for (const SolverName& solver_name : solver_names) {
-    const char* unused = solver_name.fixed_step ? "tolerance" : "step";
-    const char* used = solver_name.fixed_step ? "step" : "tolerance";
-    const bool name_known = chosen || !solver.has("name");
-    if (!name_known || settings.name != solver_name.name) continue;
+  const SolverName* const known = chosen || !solver.has("name") ? find_solver(settings.name) : nullptr;
+  if (known) {
+    const char* unused = known->fixed_step ? "tolerance" : "step";
+    const char* used = known->fixed_step ? "step" : "tolerance";
     if (solver.has(unused))
       solver.fault(unused, "solver " + settings.name + " does not use it; it has `" + used + "`");
-    else if (solver_name.fixed_step && solver.has("accuracy"))
+    else if (known->fixed_step && solver.has("accuracy"))
       solver.fault("accuracy", "solver " + settings.name + " has no error control; it has `step`");
   }
   if (solver.has("accuracy") && solver.has("tolerance"))

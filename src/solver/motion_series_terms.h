@@ -74,12 +74,12 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::direction_terms(Contact& contact, 
     arm = beta * d + Pair{system_.base_distance, -system_.base_distance} * swapped(d);
   }
   // components (a, b): along (c, s) and (-s, c) where the frame is the part's
-  const auto add_force = [&](QuadSeries& forces, double a, double b) VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
+  const auto set_force = [&](QuadSeries& forces, double a, double b) VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
     const Pair world = is_on_part ? a * d + Pair{-b, b} * swapped(d) : k == 0 ? Pair{a, b} : Pair{};
     forces[k] = Quad{world[0], world[1], b * arm[0] - a * arm[1], 0.0};
   };
-  add_force(contact.push, contact.force1, contact.force2);
-  if (contact.separate_t) add_force(contact.drag, f.t1(), f.t2());
+  set_force(contact.push, contact.force1, contact.force2);
+  if (contact.separate_t) set_force(contact.drag, f.t1(), f.t2());
 }
 
 /// What a k(n) and h(n) that change with cos^2 phi add to N of power k, depth and its rate of this power given.
