@@ -208,12 +208,15 @@ void Aligner::publish_end_if_due(Clock::time_point turn_end) {
 }
 
 /// Takes as long as the solver does, but no longer than `go_on` says, and no further than to `latest`. False: there was
-/// none, or none yet.
+/// none, or none yet. A trial that fails in its first step ends without any.
 bool Aligner::publish_next(const std::function<bool()>& go_on, double latest) {
   const double before = stage_->trial.time();
   Sample sample;
   try {
-    if (!stage_->trial.next(sample, go_on, latest)) return false;
+    if (!stage_->trial.next(sample, go_on, latest)) {
+      if (stage_->trial.ended()) finish();
+      return false;
+    }
   } catch (const SceneError& error) {
     // settings changed before the start may leave the scene without one
     const std::string text = std::string("The trial cannot start with these settings: ") + error.what();
@@ -243,9 +246,10 @@ void Aligner::publish_markers(const ros::Time& stamp) {
 
 void Aligner::finish() {
   const TrialResult result = stage_->trial.result();
+  const ros::Time stamp = samples_.has_last() ? stamps_.last() : next_stamp();
   stage_->markers.set_outcome(result.outcome);
-  publish_markers(stamps_.last());
-  publishers_["result"].publish(stage_->messages.result(result, stamps_.last()));
+  publish_markers(stamp);
+  publishers_["result"].publish(stage_->messages.result(result, stamp));
   set_activity(Activity::ended);
   ended_at_ = Clock::now();
   std::string text = std::string(to_string(result.outcome)) + " at " + time_text();

@@ -70,6 +70,7 @@ class Aligner {
   void change_stage(std::unique_ptr<Stage> next, bool other_scene);
   void set_clock_back();
   void show_start();
+  std::string place_at_start() const;
   void tend_standstill();
   void set_activity(Activity activity);
   void wait_for_subscribers();

@@ -114,10 +114,8 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
     response.message = error.what();
     return true;
   }
-  if (align_server_.active()) {
-    align_server_.abort(stage_->messages, so_far, "the trial was reset");
-    parameters_.autostart = false;
-  }
+  if (align_server_.active()) align_server_.abort(stage_->messages, so_far, "the trial was reset");
+  parameters_.autostart = false;
   announce_restart();
   if (sim_clock_) set_clock_back();
   samples_.forget_last();
@@ -126,7 +124,7 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
     show_start();
   }
   response.success = true;
-  response.message = "paused at the start";
+  response.message = place_at_start();
   return true;
 }
 
@@ -145,6 +143,12 @@ void Aligner::show_start() {
   publish_next(not_interrupted());
 }
 
+/// A trial may fail in its first step.
+std::string Aligner::place_at_start() const {
+  if (activity_ != Activity::ended) return "paused at the start";
+  return "the trial fails at the start: " + stage_->trial.result().failure;
+}
+
 /// The service ~load_scene.
 std::string Aligner::change_scene(const Scene& scene) {
   NodeParameters parameters = parameters_;
@@ -156,14 +160,13 @@ std::string Aligner::change_scene(const Scene& scene) {
   }
   auto next =
       std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_, interval);
-  if (align_server_.active()) {
+  if (align_server_.active())
     align_server_.abort(stage_->messages, stage_->trial.result(), "another scene was loaded");
-    parameters_.autostart = false;
-  }
+  parameters_.autostart = false;
   change_stage(std::move(next), true);
   tell_settings();
   if (activity_ != Activity::waiting) show_start();
-  return scene.name + ": paused at the start";
+  return scene.name + ": " + place_at_start();
 }
 
 /// Puts a trial in the place of the present one.

@@ -10,7 +10,7 @@
 namespace vibratory_alignment {
 Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
     : simulation_(simulation),
-      system_(make_system(simulation.scene())),
+      system_(simulation.system()),
       interval_(interval),
       with_events_(with_events) {}
 

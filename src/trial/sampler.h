@@ -67,7 +67,7 @@ class Sampler {
   void read(double time, double local_time, Sample& sample);
 
   Simulation& simulation_;
-  System system_;
+  const System& system_;  ///< of the simulation
   double interval_;
   bool with_events_;
   bool started_ = false, finished_ = false;

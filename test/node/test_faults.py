@@ -16,6 +16,7 @@ from dynamic_reconfigure.client import Client
 
 from aligner_test_case import AlignerTestCase, program, scene_path
 from vibratory_alignment.msg import AlignAction, AlignGoal, AlignResult, AlignerState
+from vibratory_alignment.srv import LoadScene
 
 
 class Faults(AlignerTestCase):
@@ -88,14 +89,30 @@ class Faults(AlignerTestCase):
             time.sleep(0.05)
         return rospy.has_param(name)
 
-    def start_own(self, time_scale=0.01):
+    def start_own(self, time_scale=0.01, autostart='false', wait_for=None):
         """An aligner that roslaunch knows nothing of."""
-        scale = [] if time_scale is None else ['_time_scale:=%g' % time_scale]
+        others = [] if time_scale is None else ['_time_scale:=%g' % time_scale]
+        if wait_for:
+            others.append('_wait_for_subscribers:=' + wait_for)
         process = self.spawn(program('aligner_node'), '__name:=own', '_scene_file:=' + scene_path('small'),
-                             '_sample_interval:=0.001', '_autostart:=false', *scale)
+                             '_sample_interval:=0.001', '_autostart:=' + autostart, *others)
         self.node = '/own'
         rospy.wait_for_service('/own/step', 15.0)
         return process
+
+    def test_reset_before_the_subscribers_are_there_waits_for_start_all_the_same(self):
+        for request in (lambda: self.call('reset'), lambda: rospy.ServiceProxy('/own/load_scene', LoadScene)(
+                scene_path('small'))):
+            process = self.start_own(autostart='true', wait_for='result')
+            self.assertIn('paused at the start', request().message)
+            states = self.listen('state')
+            self.listen('result')
+            self.assertTrue(states.wait_for(1))
+            time.sleep(0.5)
+            self.assertEqual([state.tau for state in states.messages], [0.0])
+            self.assertTrue(self.call('start').success)
+            self.assertTrue(states.wait_for(20))
+            self.assert_ends_at_once(process, process.terminate)
 
     def assert_ends_at_once(self, process, end):
         start = time.time()

@@ -116,14 +116,41 @@ class Services(AlignerTestCase):
         self.assertEqual(self.states.messages[-1].tau, 3.0)
 
     def load(self, scene):
-        self.assertTrue(rospy.ServiceProxy('/aligner/load_scene', LoadScene)(scene).success)
+        response = rospy.ServiceProxy('/aligner/load_scene', LoadScene)(scene)
+        self.assertTrue(response.success, response.message)
+        return response.message
 
-    def test_step_by_that_takes_long_gives_others_their_turn(self):
-        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file, open(scene_path('small')) as small:
-            file.write(small.read() + 'solver: {name: rk4, step: 1.0e-7, step_limit: 1000000000}\n')
+    def load_text(self, text):
+        """Loads a scene of this test alone."""
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write(text)
             file.flush()
             self.addCleanup(self.load, scene_path('small'))
-            self.load(file.name)
+            return self.load(file.name)
+
+    def test_trial_that_fails_in_its_first_step_ends(self):
+        results, markers = self.listen('result'), self.listen('markers')
+        with open(scene_path('small')) as small:
+            text = small.read().replace('frequency: 20.0', 'frequency: 1.0e+100')
+        before = len(results.messages)
+        self.assertIn('fails at the start: the motion is no longer finite', self.load_text(text))
+        for reset in (False, True):
+            if reset:
+                self.assertIn('fails at the start', self.call('reset').message)
+            before += 1
+            self.assertTrue(results.wait_for(before))
+            result = results.messages[-1]
+            self.assertEqual((result.outcome, result.tau), ('failed', 0.0))
+            self.assertGreater(result.header.stamp.to_sec(), 0.0)
+            self.assertTrue(markers.wait(lambda messages: messages[-1].markers[0].header.stamp == result.header.stamp))
+            self.assertFalse(self.call('start').success)
+            self.assertFalse(self.call('step').success)
+        self.load(scene_path('small'))
+        self.assertEqual(self.step_by(samples=1).samples, 1)
+
+    def test_step_by_that_takes_long_gives_others_their_turn(self):
+        with open(scene_path('small')) as small:
+            self.load_text(small.read() + 'solver: {name: rk4, step: 1.0e-7, step_limit: 1000000000}\n')
         self.assertTrue(self.states.wait_for(1))
         self.states.forget(0)
         published = 0
