@@ -1,9 +1,7 @@
 #include "cli/accuracy_command.h"
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -18,14 +16,16 @@
 #include "cli/output_roles.h"
 #include "cli/picture_format.h"
 #include "cli/progress_bar.h"
+#include "cli/row_text.h"
 #include "cli/scene_path.h"
 #include "cli/script.h"
 #include "cli/set_option.h"
+#include "cli/solver_option.h"
 #include "cli/temporary_file.h"
+#include "cli/whole_file.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
 #include "model/solver_choice.h"
-#include "model/solver_names.h"
 #include "study/accuracy.h"
 
 namespace vibratory_alignment {
@@ -47,15 +47,6 @@ struct AccuracyCommandOptions {
   std::string scene, csv, plot;
   std::vector<std::string> solvers, settings;
 };
-
-std::string check_solver(const std::string& name) {
-  std::string list;
-  for (const SolverName& solver : solver_names) {
-    if (name == solver.name) return {};
-    list += (list.empty() ? "" : ", ") + std::string(solver.name);
-  }
-  return name + " is not a solver; the solvers are " + list;
-}
 
 std::string format(const char* pattern, double value) {
   char text[32];
@@ -104,11 +95,10 @@ void write_csv(const std::string& path, const std::string& name, const Scene& sc
            << run.counts.steps << ',' << run.counts.rejected << ',' << run.counts.events << ',' << run.energy_residual
            << ',' << reference.agreement << ",\n";
     } else {
-      file << ",,,,,,,,,," << reference.agreement << ",\"" << run.failure << "\"\n";
+      file << ",,,,,,,,,," << reference.agreement << ',' << csv_cell(run.failure) << '\n';
     }
   }
-  file.close();
-  if (!file) throw OutputError(name, std::strerror(errno));
+  close_written(file, name);
 }
 
 /// What `solver: {accuracy: ...}` makes of it, and how that went if it is among the runs.

@@ -1,15 +1,11 @@
 #include "cli/calibrate_command.h"
 
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "cli/calibration_log.h"
@@ -22,10 +18,12 @@
 #include "cli/output_roles.h"
 #include "cli/scene_path.h"
 #include "cli/suite_inputs.h"
+#include "cli/whole_file.h"
 #include "model/scene_loader.h"
 #include "study/calibration.h"
 #include "study/calibration_file.h"
 #include "study/fact_suite.h"
+#include "study/thread_group.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -45,7 +43,7 @@ constexpr double kSecondsBetweenLines = 30.0;
 struct CalibrateCommandOptions {
   std::string file, report, log;
   bool resume = false;
-  int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int threads = usual_thread_count();
 };
 
 /// Tells now and then how far the search is.
@@ -127,8 +125,7 @@ int run_calibrate(const CalibrateCommandOptions& options) {
   }
   std::ofstream file(report->temporary());
   write_calibration_report(file, calibration, result);
-  file.close();
-  if (!file) throw OutputError(report->path(), std::strerror(errno));
+  close_written(file, report->path());
   report->commit();
   return kExitRan;
 }

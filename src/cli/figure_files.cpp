@@ -47,7 +47,7 @@ void write_motion(const std::filesystem::path& path, const Study& study) {
   SimulationOptions options;
   options.energy = false;
   Simulation simulation(scene, options);
-  Sampler sampler(simulation, 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod, true);
+  Sampler sampler(simulation, scene.shortest_period() / kSamplesPerPeriod, true);
   CsvFile file(path, "t,x,y,phi,vx,vy,omega,n1,n2");
   Sample sample;
   while (sampler.next(sample)) {

@@ -17,6 +17,7 @@
 #include "cli/output_roles.h"
 #include "cli/row_text.h"
 #include "cli/sweep_head.h"
+#include "cli/whole_file.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -138,12 +139,11 @@ int run_merge(const MergeCommandOptions& options) {
     shards[trial % shards.size()]->read_row(trial, line);
     file << line << '\n';
   }
-  file.close();
   if (interrupt.signal() != 0) {
     std::fprintf(stderr, "align: interrupted; nothing is written\n");
     return 128 + interrupt.signal();
   }
-  if (!file) throw OutputError(output.path(), std::strerror(errno));
+  close_written(file, output.path());
   for (const auto& shard : shards) shard->check_end();
   output.commit();
   std::fprintf(is_stdout(options.out) ? stderr : stdout, "%s of %s\n", counted(whole.trials, "trial").c_str(),

@@ -8,7 +8,6 @@
 #include <set>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "cli/command.h"
@@ -28,6 +27,7 @@
 #include "model/scene_loader.h"
 #include "study/fact_suite.h"
 #include "study/study_refusals.h"
+#include "study/thread_group.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -143,7 +143,7 @@ int run_command(const ReproduceCommandOptions& options) {
   FactRunOptions run_options;
   run_options.settings.all = options.settings;
   if (options.quick) run_options.thinning = kQuick;
-  run_options.threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  run_options.threads = options.threads > 0 ? options.threads : usual_thread_count();
   const InterruptGuard interrupt;
   Tables tables;
   std::map<std::string, Study> studies;

@@ -8,15 +8,7 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Text as a cell: with quotation marks where it has a comma or such a mark.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
-std::string cell(double value) {
+std::string number_cell(double value) {
   if (std::isnan(value)) return "";
   if (value == 0.0) return "0";
   // results need all digits nearly always; to look for fewer takes three times as long
@@ -27,9 +19,16 @@ std::string cell(double value) {
 
 }  // namespace
 
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
 std::string row_header(const std::vector<std::string>& varied) {
   std::string line = "trial";
-  for (const std::string& name : varied) line += ',' + cell(name);
+  for (const std::string& name : varied) line += ',' + csv_cell(name);
   line += ",outcome,mode";
   for (const std::string& name : row_number_names()) line += ',' + name;
   return line + ",reason";
@@ -37,15 +36,15 @@ std::string row_header(const std::vector<std::string>& varied) {
 
 std::string row_text(const TrialRow& row, const std::vector<VariedValue>& values) {
   std::string line = std::to_string(row.index);
-  for (const VariedValue& value : values) line += ',' + cell(value.text);
+  for (const VariedValue& value : values) line += ',' + csv_cell(value.text);
   line += std::string(",") + outcome_word(row);
   if (row.refused) {
     line.append(1 + row_number_names().size(), ',');  // neither mode nor numbers
   } else {
     line += std::string(",") + to_string(row.mode);
-    for (const double number : row_numbers(row)) line += ',' + cell(number);
+    for (const double number : row_numbers(row)) line += ',' + number_cell(number);
   }
-  return line + ',' + cell(row.reason);
+  return line + ',' + csv_cell(row.reason);
 }
 
 std::vector<std::string> cells_of(const std::string& line) {

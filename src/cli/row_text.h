@@ -9,6 +9,9 @@
 
 namespace vibratory_alignment {
 
+/// Text as a cell: with quotation marks where it has a comma or such a mark.
+std::string csv_cell(const std::string& text);
+
 /// The names of the columns (docs/studies.md), without line end.
 std::string row_header(const std::vector<std::string>& varied);
 

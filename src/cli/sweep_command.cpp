@@ -6,7 +6,6 @@
 #include <iostream>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "cli/command.h"
@@ -28,6 +27,7 @@
 #include "study/study_file.h"
 #include "study/study_refusals.h"
 #include "study/sweep.h"
+#include "study/thread_group.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -107,7 +107,7 @@ struct Run {
 /// "1234 of 5000, 2.1e+03/s, 2s left; aligned 97 %"
 std::string progress_text(const SweepSummary& summary, const Run& run, std::size_t count) {
   char words[100];
-  std::snprintf(words, sizeof words, "%zu of %zu, %.0f/s, ", summary.trials(), count, run.rate());
+  std::snprintf(words, sizeof words, "%zu of %zu, %.3g/s, ", summary.trials(), count, run.rate());
   const std::size_t left = count - summary.trials();
   return words + (run.trials > 0 ? duration_text(static_cast<double>(left) / run.rate()) + " left; " : "") +
          summary.short_text();
@@ -121,7 +121,7 @@ Run run(const Study& study, const SweepCommandOptions& options, const Shard& sha
   const std::size_t count = shard_size(shard, trial_count(study));
   Run result;
   SweepOptions sweep;
-  sweep.threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  sweep.threads = options.threads > 0 ? options.threads : usual_thread_count();
   sweep.first = shard.number + summary.trials() * shard.count;
   sweep.stride = shard.count;
   sweep.go_on = [&] {
@@ -147,7 +147,7 @@ std::string report(const Study& study, const SweepHead& head, const SweepSummary
   if (head.shard.count > 1)
     text += "; shard " + shard_text(head.shard) + " has " + std::to_string(summary.trials()) + " of them";
   text += "\n" + summary.text();
-  std::snprintf(line, sizeof line, "Run          %s in %s, %.0f per second\n", counted(run.trials, "trial").c_str(),
+  std::snprintf(line, sizeof line, "Run          %s in %s, %.3g per second\n", counted(run.trials, "trial").c_str(),
                 duration_text(run.seconds).c_str(), run.rate());
   return text + line;
 }

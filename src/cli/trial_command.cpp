@@ -18,6 +18,7 @@
 #include "cli/progress_bar.h"
 #include "cli/scene_path.h"
 #include "cli/set_option.h"
+#include "cli/solver_option.h"
 #include "cli/summary.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
@@ -30,8 +31,6 @@
 
 namespace vibratory_alignment {
 namespace {
-
-constexpr double kSamplesPerPeriod = 20.0;  ///< of the fastest excitation, without --sample
 
 constexpr char kTrialFooter[] = R"(Examples:
   align trial fig2                               the paper's alignment trial, which comes with the package
@@ -76,16 +75,6 @@ CLI::Validator number_by(const NumberRule& rule) {
     return std::string();
   };
   return CLI::Validator(check, "");
-}
-
-std::string solver_list() {
-  std::string list;
-  for (const SolverName& solver : solver_names) list += (list.empty() ? "" : ", ") + std::string(solver.name);
-  return list;
-}
-
-std::string check_solver(const std::string& name) {
-  return find_solver(name) ? std::string() : name + " is not a solver; the solvers are " + solver_list();
 }
 
 /// Takes `key` out of the section `solver`, if it is there.
@@ -147,7 +136,7 @@ void check_outputs(const TrialCommandOptions& options, const std::string& scene_
 /// Dimensionless: --sample, or a twentieth of the period of the fastest excitation.
 double sample_interval(const TrialCommandOptions& options, const Scene& scene, double end) {
   const double interval = options.sample ? *options.sample / output_units(scene).time
-                                         : 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod;
+                                         : scene.shortest_period() / kUsualSamplesPerPeriod;
   if (end / interval > kMostSamples) {
     throw UsageError("--sample: the run would have more than 1e9 samples; give a longer interval");
   }
@@ -197,7 +186,7 @@ class Recorder {
   std::unique_ptr<BagWriter> bag_;
 };
 
-/// Shows how far a trial is that ends at time `end` at the latest.
+/// Shows how far a trial is that ends at time `end` at the latest, in the scene's own unit.
 void show(ProgressBar& progress, double time, double end) {
   progress.update(end > 0.0 ? time / end : 0.0, [&] {
     char words[80];
@@ -209,15 +198,16 @@ void show(ProgressBar& progress, double time, double end) {
 /// Runs to the end or to a signal.
 void simulate(Simulation& simulation, Recorder& recorder, double interval, double end, const InterruptGuard& interrupt,
               ProgressBar& progress) {
+  const double unit = output_units(simulation.scene()).time;
   if (!recorder.wanted()) {
-    while (interrupt.signal() == 0 && simulation.advance()) show(progress, simulation.time(), end);
+    while (interrupt.signal() == 0 && simulation.advance()) show(progress, simulation.time() * unit, end * unit);
     return;
   }
   Sampler sampler(simulation, interval, true);
   Sample sample;
   while (interrupt.signal() == 0 && sampler.next(sample)) {
     recorder.write(sample);
-    show(progress, sample.time, end);
+    show(progress, sample.time * unit, end * unit);
   }
 }
 

@@ -23,10 +23,14 @@ OutputPath output_path(const std::string& option, const std::string& path) {
 WholeFile::WholeFile(const std::string& option, const std::string& path)
     : path_(output_path(option, path)), file_(path_.temporary(), std::ios::binary) {}
 
-void WholeFile::finish() {
+void close_written(std::ofstream& file, const std::string& name) {
   errno = 0;
-  file_.close();
-  if (!file_) throw OutputError(path_.path(), errno != 0 ? std::strerror(errno) : "not all of it was written");
+  file.close();
+  if (!file) throw OutputError(name, errno != 0 ? std::strerror(errno) : "not all of it was written");
+}
+
+void WholeFile::finish() {
+  close_written(file_, path_.path());
   path_.commit();
 }
 

@@ -8,6 +8,9 @@
 
 namespace vibratory_alignment {
 
+/// All of the file has been written. Throws OutputError that gives it this name, for what went wrong before as well.
+void close_written(std::ofstream& file, const std::string& name);
+
 class WholeFile {
  public:
   /// Throws std::runtime_error that names `option`, the path and the reason when it cannot be written.

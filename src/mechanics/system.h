@@ -45,8 +45,8 @@ struct System {
 /// True with the tanh law of friction.
 inline bool has_layer(const System& system) { return system.friction > 0.0 && system.regularization > 0.0; }
 
-/// Resolves a scene. Throws SceneError (source: the scene's name) when pressing_force is given but nothing can be
-/// touched from above (no y_touch), or when a start asked for as equilibrium does not exist.
+/// Resolves a scene. Throws SceneError (of the scene's source, else its name) when pressing_force is given but nothing
+/// can be touched from above (no y_touch), or when a start asked for as equilibrium does not exist.
 System make_system(const Scene& scene);
 
 }  // namespace vibratory_alignment

@@ -143,6 +143,9 @@ struct Scene {
     for (const Excitation& e : excitations) fastest = std::max({fastest, e.frequency, e.end_frequency});
     return fastest;
   }
+
+  /// Its period.
+  double shortest_period() const { return 2.0 * M_PI / fastest_excitation(); }
 };
 
 }  // namespace vibratory_alignment

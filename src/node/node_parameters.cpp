@@ -15,7 +15,6 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr double kSlowMotion = 0.002;  ///< a trial of some ten milliseconds is watched for some ten seconds
-constexpr double kSamplesPerPeriod = 20.0;
 
 /// Reads parameters and collects what is wrong with them. What is absent or wrong keeps its default.
 class Reader {
@@ -156,7 +155,7 @@ double usual_time_scale(const Scene& scene) { return scene.scales ? kSlowMotion 
 double sample_interval(const NodeParameters& parameters, const Scene& scene) {
   if (parameters.sample_interval) return *parameters.sample_interval / output_units(scene).time;
   if (parameters.time_scale > 0.0) return parameters.time_scale / parameters.publish_rate / ros_units(scene).time;
-  return 2.0 * M_PI / scene.fastest_excitation() / kSamplesPerPeriod;
+  return scene.shortest_period() / kUsualSamplesPerPeriod;
 }
 
 }  // namespace vibratory_alignment

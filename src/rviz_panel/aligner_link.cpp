@@ -66,9 +66,9 @@ AlignerLink::AlignerLink(const std::string& node) : node_(node) {
 }
 
 AlignerLink::~AlignerLink() {
-  ending_ = true;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
     if (busy_since_) client_.shutdown();
   }
   worker_.join();
@@ -241,12 +241,14 @@ void AlignerLink::carry_out(const dynamic_reconfigure::Config& changes) {
   on_settings(answer);
 }
 
-/// False, and the user is told, if the node does not answer.
+/// False, and the user is told, if the node does not answer. Once the link ends no further call begins: nobody would
+/// end it.
 template <class Service>
 bool AlignerLink::call(const std::string& service, Service& message) {
   ros::ServiceClient client = handle_.serviceClient<Service>(node_ + "/" + service, true);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (ending_) return false;
     client_ = client;
     busy_since_ = Clock::now();
   }

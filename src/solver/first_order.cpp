@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "solver/contact_events.h"
 
 namespace vibratory_alignment {
 namespace {

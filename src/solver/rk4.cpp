@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contact_events.h"
 
 namespace vibratory_alignment {
 namespace {

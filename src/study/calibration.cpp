@@ -5,7 +5,6 @@
 #include <cmath>
 #include <exception>
 #include <stdexcept>
-#include <thread>
 #include <tuple>
 
 #include "model/number_text.h"
@@ -13,6 +12,7 @@
 #include "study/calibration_search.h"
 #include "study/fingerprint.h"
 #include "study/formula.h"
+#include "study/thread_group.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -63,9 +63,14 @@ void in_threads(int threads, std::size_t count, CalibrationTally& tally, const s
       }
     }
   };
-  std::vector<std::thread> pool;
-  for (int i = 0; i < threads; ++i) pool.emplace_back(take_work);
-  for (std::thread& thread : pool) thread.join();
+  ThreadGroup pool;
+  try {
+    for (int i = 0; i < threads; ++i) pool.start(take_work);
+  } catch (...) {
+    tally.end();
+    throw;
+  }
+  pool.join();
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
   if (tally.ended()) throw std::runtime_error("interrupted");

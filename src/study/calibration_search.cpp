@@ -4,7 +4,6 @@
 #include <exception>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace vibratory_alignment {

@@ -17,7 +17,7 @@ namespace vibratory_alignment {
 
 class CalibrationRun {
  public:
-  /// Keeps references to all but the suite.
+  /// Keeps references to all of them.
   CalibrationRun(const Calibration& calibration, std::size_t reading, std::size_t seed, const FactSuite& suite,
                  CalibrationTally& tally);
 

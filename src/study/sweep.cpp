@@ -9,12 +9,12 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "model/scene_loader.h"
 #include "study/design.h"
+#include "study/thread_group.h"
 #include "study/trial_scenes.h"
 
 namespace vibratory_alignment {
@@ -34,13 +34,15 @@ class Crew {
     // all trees are copied before a thread runs: yaml-cpp's are for one thread at a time
     std::vector<TrialScenes> scenes;
     for (std::size_t i = 0; i < threads; ++i) scenes.emplace_back(study);
-    for (TrialScenes& own : scenes) threads_.emplace_back([this, own = std::move(own)]() mutable { work(own); });
+    try {
+      for (TrialScenes& own : scenes) threads_.start([this, own = std::move(own)]() mutable { work(own); });
+    } catch (...) {
+      stop();  // those that have started
+      throw;
+    }
   }
 
-  ~Crew() {
-    stop();
-    for (std::thread& thread : threads_) thread.join();
-  }
+  ~Crew() { stop(); }
 
   /// Takes out the rows that are next in order, waiting for them one turn at most. False when all have been taken.
   /// Rethrows what ended a thread.
@@ -112,7 +114,7 @@ class Crew {
   std::size_t claimed_ = 0, put_ = 0, taken_ = 0;
   std::exception_ptr error_;
 
-  std::vector<std::thread> threads_;
+  ThreadGroup threads_;  // the first to go
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ struct TrialResult {
   double solver_step = 0.0;       ///< 0 for error-controlled solvers
   double solver_accuracy = 0.0;   ///< that was asked for; 0: none
   SolverCounts counts;
-  double cpu_seconds = 0.0;
+  double cpu_seconds = 0.0;  ///< processor time of the thread since the trial began
 };
 
 }  // namespace vibratory_alignment

@@ -40,6 +40,9 @@ struct Sample {
   double progress = 0.0;      ///< 0 at the start, 1 when the part has reached the clearance of the slot, from |x|
 };
 
+/// Samples in a period of the fastest excitation, where nobody says how far apart they are to be.
+constexpr double kUsualSamplesPerPeriod = 20.0;
+
 /// A run of more samples than these is nothing that can be waited for or stored: those who ask for it are refused.
 constexpr double kMostSamples = 1e9;
 

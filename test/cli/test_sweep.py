@@ -1,6 +1,7 @@
 """`align sweep`: the table that it writes, what it says, what it refuses."""
 
 import os
+import resource
 import statistics
 import unittest
 
@@ -219,6 +220,13 @@ class RefusalTest(SweepTestCase):
         self.assert_refused(["sweep", study, "--resume"], "--resume", "--csv")
         self.assert_refused(["sweep", study, "--csv", "/dev/null", "--resume"], "/dev/null")
         self.assert_refused(["sweep", study, "--csv", "nosuch/out.csv"], "nosuch/out.csv")
+
+    def test_threads_that_cannot_be_had_are_told(self):
+        def want_32_terabytes_each():
+            resource.setrlimit(resource.RLIMIT_STACK, (1 << 45, resource.getrlimit(resource.RLIMIT_STACK)[1]))
+        process = self.align("sweep", self.study(), "--threads", "8", preexec_fn=want_32_terabytes_each)
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(process.stderr, r"^align: cannot start thread \d: ")
 
     def test_a_full_disk_is_told(self):
         process = self.align("sweep", self.study(), "--csv", "/dev/full")

@@ -1,0 +1,14 @@
+// Names of solvers as options.
+#pragma once
+
+#include <string>
+
+namespace vibratory_alignment {
+
+/// "event, implicit, ...": those of this build.
+std::string solver_list();
+
+/// Empty for the name of a solver of this build, else what is wrong with it: a check of CLI11.
+std::string check_solver(const std::string& name);
+
+}  // namespace vibratory_alignment
