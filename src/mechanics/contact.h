@@ -30,6 +30,8 @@ struct ContactState {
   Slip slip = Slip::none;
 
   bool touching() const { return phase == Phase::loaded || phase == Phase::unloaded; }
+  /// Touches a wall: a corner that does is between the walls, in which it presses a dent.
+  bool on_wall() const { return touching() && (face == Face::right_wall || face == Face::left_wall); }
 };
 
 using ContactStates = std::array<ContactState, kSiteCount>;

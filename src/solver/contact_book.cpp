@@ -7,14 +7,10 @@
 namespace vibratory_alignment {
 namespace {
 
-bool on_wall(const ContactState& contact) {
-  return contact.touching() && (contact.face == Face::right_wall || contact.face == Face::left_wall);
-}
-
 /// A corner reaches the floor only inside the slot, or while it presses into a wall.
 bool over_floor(const System& system, const ContactBook& book, Site site, const Vec2& point) {
   const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
-  return on_wall(book.contacts[static_cast<std::size_t>(corner)]) || std::abs(point.x) <= system.slot_half_width;
+  return book.contacts[static_cast<std::size_t>(corner)].on_wall() || std::abs(point.x) <= system.slot_half_width;
 }
 
 /// A condition of a region, at a point, with the surface of a base that has been left not back yet.
@@ -194,10 +190,10 @@ bool is_below(const System& system, const ContactBook& book, double depth, bool 
   if (book.placed.state.y - system.base_distance * book.placed.cos_phi > -depth) return false;
   for (const Site corner : {Site::b1, Site::b2}) {
     const Vec2 point = site_point(system, book.placed, corner);
-    if (!(-point.y - depth > 0.0)) return false;
-    const bool between =
-        on_wall(book.contacts[static_cast<std::size_t>(corner)]) || std::abs(point.x) < system.slot_half_width;
-    if (between_walls && !between) return false;
+    const bool on_wall = book.contacts[static_cast<std::size_t>(corner)].on_wall();
+    const Region region = insertion_region(system, depth, between_walls && !on_wall);
+    for (int j = 0; j < region.count; ++j)
+      if (!(region.conditions[j].value(point) > 0.0)) return false;
   }
   return true;
 }

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "mechanics/site_rules.h"
-#include "mechanics/tilt.h"
 #include "solver/base_recovery.h"
 #include "solver/contact_point.h"
 #include "solver/polynomial_roots.h"
@@ -44,16 +43,17 @@ class Search {
  public:
   Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries,
          const DriveForms& drives, FoundEvents& found)
-      : Search(system, series, segment, segment.duration, {segment.cos_phi[0], segment.sin_phi[0]}, pins, recoveries,
-               drives, found) {
+      : system_(system),
+        series_(series),
+        segment_(segment),
+        pins_(pins),
+        recoveries_(recoveries),
+        drives_(drives),
+        order_(segment.order),
+        duration_(segment.duration),
+        bounds_(system, segment, pins, {segment.cos_phi[0], segment.sin_phi[0]}),
+        found_(found) {
     bound_motion();
-  }
-
-  /// For only_forces_act(), of a segment that has no series.
-  Search(const System& system, MotionSeries& series, Segment& segment, const MotionBounds& motion, const Pins& pins,
-         const Recoveries& recoveries, const DriveForms& drives, FoundEvents& found)
-      : Search(system, series, segment, motion.duration, tilt_of(segment.begin.phi), pins, recoveries, drives, found) {
-    set_bounds(motion.acceleration);
   }
 
   void run(const OutcomeGuards& outcomes) {
@@ -73,34 +73,7 @@ class Search {
     if (outcomes.inserted) guard_depth(EventKind::inserted, system_.inserted_depth, false);
   }
 
-  /// True when bounds alone tell that nothing happens but by forces and friction.
-  bool only_forces_act(const OutcomeGuards& outcomes) const {
-    for (int i = 0, end = site_end(system_); i < end; ++i) {
-      const auto site = static_cast<Site>(i);
-      if (!site_in_use(system_, site)) continue;
-      const ContactState& contact = segment_.contacts[static_cast<std::size_t>(i)];
-      if (contact.phase == Phase::loaded ? !surely_stays_on(site, contact.face)
-                                         : contact.phase != Phase::outside || !surely_outside(site))
-        return false;
-    }
-    return !(outcomes.aligned && !surely_misses(system_.aligned_depth, true)) &&
-           !(outcomes.inserted && !surely_misses(system_.inserted_depth, false));
-  }
-
  private:
-  Search(const System& system, MotionSeries& series, Segment& segment, double duration, const Tilt& start,
-         const Pins& pins, const Recoveries& recoveries, const DriveForms& drives, FoundEvents& found)
-      : system_(system),
-        series_(series),
-        segment_(segment),
-        pins_(pins),
-        recoveries_(recoveries),
-        drives_(drives),
-        order_(segment.order),
-        duration_(duration),
-        start_(start),
-        found_(found) {}
-
   void offer(double time, EventKind kind, Site site, Face face = Face::none) {
     if (time == kNoRoot) return;
     const double slack = kCoincidence * time;
@@ -124,119 +97,11 @@ class Search {
     return true;
   }
 
-  Vec2 start_point(Site site) const { return site_point(system_, segment_.begin, site, start_.cos, start_.sin); }
-
-  /// Largest speeds of the axes during the segment, and accelerations that bound how far from their tangents they go.
-  void bound_motion() {
-    double force_x = 0.0, force_y = system_.weight, moment = 0.0;
-    for (int i = 0; i < drives_.count; ++i) {
-      const DriveForm& form = drives_.form[i];
-      const double most = std::abs(form.constant) + std::abs(form.slope) * duration_ + std::abs(form.amplitude);
-      (drives_.direction[i] == Direction::x   ? force_x
-       : drives_.direction[i] == Direction::y ? force_y
-                                              : moment) += most;
-    }
-    const Load3 terms = mean_accelerations();
-    set_bounds({bound_acceleration(system_.x, segment_.x, segment_.vx, force_x, terms.x),
-                bound_acceleration(system_.y, segment_.y, segment_.vy, force_y, terms.y),
-                bound_acceleration(system_.phi, segment_.phi, segment_.omega, moment, terms.phi)});
-  }
-
-  void set_bounds(const Load3& acceleration) {
-    acceleration_ = acceleration.x + acceleration.y;
-    turn_acceleration_ = acceleration.phi;
-    speed_ = std::abs(segment_.begin.vx) + std::abs(segment_.begin.vy) + acceleration_ * duration_;
-    turn_rate_ = std::abs(segment_.begin.omega) + turn_acceleration_ * duration_;
-  }
-
-  /// Sums of the absolute values of the terms of (v(t) - v(0))/t: A, of which |v(t) - v(0)| <= A t and
-  /// |q(t) - q(0) - v(0) t| <= A t^2/2.
-  Load3 mean_accelerations() const {
-    Pair sum{};
-    double turn = 0.0;
-    for (int k = order_; k >= 1; --k) {
-      sum = sum * duration_ + Pair{std::abs(segment_.vx[k]), std::abs(segment_.vy[k])};
-      turn = turn * duration_ + std::abs(segment_.omega[k]);
-    }
-    return {sum[0], sum[1], turn};
-  }
-
-  /// A of an axis: in flight from its equation, where its spring and damper act on at most what the acceleration itself
-  /// makes of the start; else the sum of its series' terms.
-  double bound_acceleration(const Axis& axis, const Series& q, const Series& v, double force, double terms) const {
-    if (!axis.moves) return 0.0;
-    const double h = duration_, speed = std::abs(v[0]);
-    const double feedback = axis.inverse_inertia * (0.5 * axis.stiffness * h * h + axis.damping * h);
-    if (segment_.loaded_count == 0 && feedback < 0.5) {
-      const double start = force + axis.stiffness * (std::abs(q[0] - axis.anchor) + speed * h) + axis.damping * speed;
-      return axis.inverse_inertia * start / (1.0 - feedback);
-    }
-    return terms;
-  }
-
-  /// A site's point at the segment's start with its rate, and an acceleration that bounds how far from its tangent it
-  /// goes.
-  struct PointBound {
-    Vec2 p, rate;
-    double acceleration = 0.0;
-  };
-
-  PointBound bound_point(Site site) const {
-    const double vx = segment_.begin.vx, vy = segment_.begin.vy, omega = segment_.begin.omega;
-    PointBound bound;
-    bound.p = start_point(site);
-    double reach = 0.0;
-    if (is_edge(site)) {
-      // (u, w)' = -(v.e1, v.e2) + omega (w, -u)
-      const double c = start_.cos, s = start_.sin;
-      bound.rate = {-(vx * c + vy * s) + omega * bound.p.y, vx * s - vy * c - omega * bound.p.x};
-      reach = std::abs(bound.p.x) + std::abs(bound.p.y) + speed_ * duration_;
-    } else {
-      const double rx = bound.p.x - segment_.begin.x, ry = bound.p.y - segment_.begin.y;
-      bound.rate = {vx - omega * ry, vy + omega * rx};
-      reach = std::abs(rx) + std::abs(ry);
-    }
-    bound.acceleration =
-        acceleration_ + 2.0 * turn_rate_ * speed_ + reach * (turn_acceleration_ + turn_rate_ * turn_rate_);
-    return bound;
-  }
-
-  /// Largest value of a condition during the segment, at most; `sign` = -1: smallest, at least, negated.
-  double largest(const RegionCondition& condition, const PointBound& bound, double sign, bool at_zero) const {
-    const double value = at_zero ? 0.0 : sign * condition.value(bound.p);
-    const double rate = sign * (condition.c1 * bound.rate.x + condition.c2 * bound.rate.y);
-    // a parabola that opens upward: largest at an end
-    const double change = (rate + 0.5 * bound.acceleration * duration_) * duration_;
-    return at_zero ? change : std::max(value, value + change);
-  }
+  void bound_motion() { bounds_.set(duration_, most_accelerations(system_, segment_, drives_, duration_)); }
 
   /// True when a site's point surely stays outside during the segment. `pinned`: face on which the point starts.
   bool stays_outside(Site site, const Region& region, Face pinned) {
-    return surely_outside(site, region, pinned) || (shorten() && surely_outside(site, region, pinned));
-  }
-
-  bool surely_outside(Site site, const Region& region, Face pinned) const {
-    const PointBound bound = bound_point(site);
-    for (int j = 0; j < region.count; ++j) {
-      const RegionCondition& condition = region.conditions[j];
-      if (largest(condition, bound, 1.0, pinned != Face::none && condition.face == pinned) < 0.0) return true;
-    }
-    return false;
-  }
-
-  bool surely_outside(Site site) const {
-    const Face pinned = pins_[static_cast<std::size_t>(site)].face;
-    for (int half = 0; half < region_count(site); ++half)
-      if (!surely_outside(site, site_region(system_, site, half), pinned)) return false;
-    return true;
-  }
-
-  bool surely_stays_on(Site site, Face face) const {
-    const PointBound bound = bound_point(site);
-    const Region limits = face_limits(system_, face, bound.p);
-    for (int j = 0; j < limits.count; ++j)
-      if (!(largest(limits.conditions[j], bound, -1.0, false) < 0.0)) return false;
-    return true;
+    return bounds_.surely_outside(site, region, pinned) || (shorten() && bounds_.surely_outside(site, region, pinned));
   }
 
   Series condition_series(const RegionCondition& condition, Site site) {
@@ -255,14 +120,14 @@ class Search {
   }
 
   void guard_limits(Site site, Face face) {
-    PointBound bound = bound_point(site);
-    const Region limits = face_limits(system_, face, bound.p);
+    MotionBounds::Point point = bounds_.point(site);
+    const Region limits = face_limits(system_, face, point.p);
     for (int j = 0; j < limits.count; ++j) {
       const RegionCondition& limit = limits.conditions[j];
-      if (largest(limit, bound, -1.0, false) < 0.0) continue;
+      if (bounds_.surely_holds(limit, point)) continue;
       if (shorten()) {
-        bound = bound_point(site);
-        if (largest(limit, bound, -1.0, false) < 0.0) continue;
+        point = bounds_.point(site);
+        if (bounds_.surely_holds(limit, point)) continue;
       }
       offer(first_fall(condition_series(limit, site), order_, duration_, 0), EventKind::run_off, site, limit.face);
     }
@@ -271,11 +136,12 @@ class Search {
   /// A contact that slides in name only: at its friction limit, but held by another one. V is rounding.
   bool stays_at_rest(int loaded) {
     const Series& v = segment_.loaded[loaded].slip_velocity;
-    if (std::abs(v[0]) > kSurelySliding * speed_ || std::abs(v[1]) > kSurelySliding * acceleration_) return false;
+    if (std::abs(v[0]) > kSurelySliding * bounds_.speed() || std::abs(v[1]) > kSurelySliding * bounds_.acceleration())
+      return false;
     if (!noise_) noise_ = series_noise(system_, segment_, duration_, kRestAllowance);
     double sum = 0.0, power = 1.0;
     for (int k = 0; k <= order_; ++k, power *= duration_) sum += std::abs(v[k]) * power;
-    return sum <= noise_->slip_rate[loaded] * duration_ + kSlipRounding * speed_;
+    return sum <= noise_->slip_rate[loaded] * duration_ + kSlipRounding * bounds_.speed();
   }
 
   /// Normal force and friction of a loaded contact.
@@ -461,22 +327,17 @@ class Search {
     }
   }
 
-  bool presses_wall(Site corner) const {
-    const Face face = segment_.contacts[static_cast<std::size_t>(corner)].face;
-    return face == Face::right_wall || face == Face::left_wall;
-  }
-
-  /// A corner reaches the floor only inside the slot (or while it presses into a wall).
+  /// A corner reaches the floor only inside the slot (or while it touches a wall).
   bool over_floor(Site site, double time) {
     const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
-    if (presses_wall(corner)) return true;
+    if (segment_.contacts[static_cast<std::size_t>(corner)].on_wall()) return true;
     const Series across = condition_series({1.0, 0.0, 0.0, Face::none}, site);
     return std::abs(value_at(across, order_, time)) <= system_.slot_half_width;
   }
 
   void guard_free(Site site) {
     // free inside: until the point is outside again
-    const Vec2 p = start_point(site);
+    const Vec2 p = bounds_.start_point(site);
     const int half = region_count(site) == 2 && p.x < 0.0 ? 1 : 0;
     const Region region = site_region(system_, site, half);
     for (int j = 0; j < region.count; ++j) {
@@ -486,33 +347,19 @@ class Search {
     }
   }
 
-  /// What is asked of a lower corner: to be below `depth` and, if asked, between the walls (one that presses into a
-  /// wall is).
-  RegionCondition asked(double depth, int j) const {
-    return j == 0 ? RegionCondition{0.0, -1.0, -depth, Face::none}
-                  : RegionCondition{j == 1 ? 1.0 : -1.0, 0.0, system_.slot_half_width, Face::none};
-  }
-  int asked_count(Site site, bool between_walls) const { return between_walls && !presses_wall(site) ? 3 : 1; }
-
-  /// True when something that is asked of a corner surely fails throughout.
-  bool surely_misses(double depth, bool between_walls) const {
-    for (const Site site : {Site::b1, Site::b2}) {
-      const PointBound bound = bound_point(site);
-      for (int j = 0; j < asked_count(site, between_walls); ++j)
-        if (largest(asked(depth, j), bound, 1.0, false) < 0.0) return true;
-    }
-    return false;
-  }
-
   /// Both lower corners are where it is asked.
   void guard_depth(EventKind kind, double depth, bool between_walls) {
     // mostly one of them surely fails throughout
-    if (surely_misses(depth, between_walls) || (shorten() && surely_misses(depth, between_walls))) return;
+    if (bounds_.surely_misses(depth, between_walls) || (shorten() && bounds_.surely_misses(depth, between_walls)))
+      return;
     Conditions conditions;
     conditions.count = 0;
-    for (const Site site : {Site::b1, Site::b2})
-      for (int j = 0; j < asked_count(site, between_walls); ++j)
-        conditions.g[conditions.count++] = condition_series(asked(depth, j), site);
+    for (const Site site : {Site::b1, Site::b2}) {
+      const bool on_wall = segment_.contacts[static_cast<std::size_t>(site)].on_wall();
+      const Region region = insertion_region(system_, depth, between_walls && !on_wall);
+      for (int j = 0; j < region.count; ++j)
+        conditions.g[conditions.count++] = condition_series(region.conditions[j], site);
+    }
     offer(first_entry(conditions, order_, duration_).time, kind, Site::b1);
   }
 
@@ -524,9 +371,8 @@ class Search {
   const DriveForms& drives_;
   int order_;
   double duration_;
-  Tilt start_;                    ///< cos and sin of the tilt at the start
-  double found_at_forces_ = 0.0;  ///< time of the first event of normal forces and friction, if there is one
-  double speed_ = 0.0, turn_rate_ = 0.0, acceleration_ = 0.0, turn_acceleration_ = 0.0;
+  MotionBounds bounds_;               ///< up to `duration_`
+  double found_at_forces_ = 0.0;      ///< time of the first event of normal forces and friction, if there is one
   std::optional<SeriesNoise> noise_;  ///< once it has been asked for
   FoundEvents& found_;
 };
@@ -537,13 +383,6 @@ void find_events(const System& system, MotionSeries& series, Segment& segment, c
                  const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives,
                  FoundEvents& found) {
   Search(system, series, segment, pins, recoveries, drives, found).run(outcomes);
-}
-
-bool only_forces_act(const System& system, MotionSeries& series, Segment& segment, const MotionBounds& motion,
-                     const Pins& pins, const Recoveries& recoveries, const OutcomeGuards& outcomes,
-                     const DriveForms& drives) {
-  FoundEvents none;
-  return Search(system, series, segment, motion, pins, recoveries, drives, none).only_forces_act(outcomes);
 }
 
 }  // namespace vibratory_alignment

@@ -2,14 +2,10 @@
 #pragma once
 
 #include "solver/contact_mode.h"
+#include "solver/motion_bounds.h"
 #include "solver/motion_series.h"
 
 namespace vibratory_alignment {
-
-/// Which outcomes are still waited for.
-struct OutcomeGuards {
-  bool aligned = false, inserted = false;
-};
 
 struct FoundEvents {
   double time = kNoEvent;
@@ -31,17 +27,5 @@ struct FoundEvents {
 [[gnu::noinline]] void find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
                                    const Recoveries& recoveries, const OutcomeGuards& outcomes,
                                    const DriveForms& drives, FoundEvents& found);
-
-/// How long a segment is, and bounds of |x''|, |y''|, |phi''| in it.
-struct MotionBounds {
-  double duration = 0.0;
-  Load3 acceleration;
-};
-
-/// True when these bounds, from the start segment.begin on, exclude all events but those of the loaded contacts' forces
-/// and friction. False also where a point is inside without force. The segment's series are not read.
-[[gnu::noinline]] bool only_forces_act(const System& system, MotionSeries& series, Segment& segment,
-                                       const MotionBounds& motion, const Pins& pins, const Recoveries& recoveries,
-                                       const OutcomeGuards& outcomes, const DriveForms& drives);
 
 }  // namespace vibratory_alignment

@@ -284,8 +284,10 @@ bool EventSolver::cross_layer(double longest, FoundEvents& found) {
   if (only->slip != Slip::regularized || std::any_of(only + 1, contacts.end(), is_loaded)) return false;
   const auto site = static_cast<Site>(only - contacts.begin());
   if (!layer_crossing_->take(state_, forms_, contacts, site, longest, counts_)) return false;
-  const MotionBounds motion{layer_crossing_->duration(), layer_crossing_->most_acceleration()};
-  if (!only_forces_act(system_, series_, segment_, motion, mode_.pins, mode_.recoveries, outcomes_, forms_)) {
+  const double duration = layer_crossing_->duration();
+  MotionBounds bounds(system_, segment_, mode_.pins, tilt_of(segment_.begin.phi));
+  bounds.set(duration, layer_crossing_->most_acceleration());
+  if (!bounds.only_forces_act(outcomes_)) {
     ++counts_.rejected;
     return false;
   }
@@ -294,9 +296,9 @@ bool EventSolver::cross_layer(double longest, FoundEvents& found) {
   segment_.order = 0;
   segment_.loaded_count = 1;
   segment_.loaded[0].site = site;
-  segment_.duration = motion.duration;
+  segment_.duration = duration;
   segment_.end = layer_crossing_->end();
-  found.time = motion.duration;
+  found.time = duration;
   found.count = 1;
   found.events[0] = {EventKind::slip, site};
   choice_.cross_layer();

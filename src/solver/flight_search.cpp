@@ -174,17 +174,14 @@ class Search {
     return gap;
   }
 
-  /// Both corners have to be below `depth` and, if asked, between the walls.
+  /// Both corners have to be below `depth` and, if asked, between the walls (one that touches a wall is).
   void outcome_ahead(const FlightView& view, double depth, bool between_walls, double horizon, Nearest& nearest) const {
-    const double l = system_.slot_half_width;
-    const RegionCondition asked[] = {
-        {0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}};
-    const int asked_count = between_walls ? 3 : 1;
+    const auto asked = [&](Site corner) {
+      const bool on_wall = contacts_[static_cast<std::size_t>(corner)].on_wall();
+      return insertion_region(system_, depth, between_walls && !on_wall);
+    };
     double gap = -INFINITY;
-    for (const Site site : {Site::b1, Site::b2}) {
-      const Vec2 place = view.place(site);
-      for (int j = 0; j < asked_count; ++j) gap = std::max(gap, -asked[j].value(place));
-    }
+    for (const Site site : {Site::b1, Site::b2}) gap = std::max(gap, gap_of(asked(site), view.place(site)));
     if (gap > view.most_speed_of_corners() * horizon) {
       nearest.take({horizon, gap}, false);
       return;
@@ -193,8 +190,9 @@ class Search {
     std::size_t count = 0, farthest = 0;
     for (const Site site : {Site::b1, Site::b2}) {
       const PointMotion motion = view.point(site);
-      for (int j = 0; j < asked_count; ++j) {
-        curves[count] = motion.along(asked[j]);
+      const Region region = asked(site);
+      for (int j = 0; j < region.count; ++j) {
+        curves[count] = motion.along(region.conditions[j]);
         if (curves[count].value < curves[farthest].value) farthest = count;
         ++count;
       }
