@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/scene_loader.h"
+#include "model/setting.h"
 #include "trial/simulation.h"
 
 namespace va = vibratory_alignment;

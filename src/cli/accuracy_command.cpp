@@ -25,7 +25,9 @@
 #include "cli/whole_file.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
+#include "model/setting.h"
 #include "model/solver_choice.h"
+#include "model/yaml_file.h"
 #include "study/accuracy.h"
 
 namespace vibratory_alignment {

@@ -19,7 +19,7 @@
 #include "cli/scene_path.h"
 #include "cli/suite_inputs.h"
 #include "cli/whole_file.h"
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/calibration.h"
 #include "study/calibration_file.h"
 #include "study/fact_suite.h"

@@ -21,7 +21,7 @@
 #include "cli/sweep_command.h"
 #include "cli/trial_command.h"
 #include "model/nearest_word.h"
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 
 namespace vibratory_alignment {
 namespace {

@@ -24,7 +24,7 @@
 #include "cli/set_option.h"
 #include "cli/suite_inputs.h"
 #include "cli/whole_file.h"
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/fact_suite.h"
 #include "study/study_refusals.h"
 #include "study/thread_group.h"

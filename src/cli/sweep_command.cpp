@@ -21,7 +21,7 @@
 #include "cli/sweep_csv.h"
 #include "cli/sweep_head.h"
 #include "cli/sweep_summary.h"
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/design.h"
 #include "study/fingerprint.h"
 #include "study/study_file.h"

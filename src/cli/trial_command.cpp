@@ -22,9 +22,11 @@
 #include "cli/summary.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
+#include "model/setting.h"
 #include "model/solver_names.h"
 #include "model/solver_rules.h"
 #include "model/tree_reader.h"
+#include "model/yaml_file.h"
 #include "node/bag_writer.h"
 #include "trial/sampler.h"
 #include "trial/simulation.h"
@@ -135,8 +137,8 @@ void check_outputs(const TrialCommandOptions& options, const std::string& scene_
 
 /// Dimensionless: --sample, or a twentieth of the period of the fastest excitation.
 double sample_interval(const TrialCommandOptions& options, const Scene& scene, double end) {
-  const double interval = options.sample ? *options.sample / output_units(scene).time
-                                         : scene.shortest_period() / kUsualSamplesPerPeriod;
+  const double interval =
+      options.sample ? *options.sample / output_units(scene).time : scene.shortest_period() / kUsualSamplesPerPeriod;
   if (end / interval > kMostSamples) {
     throw UsageError("--sample: the run would have more than 1e9 samples; give a longer interval");
   }

@@ -5,7 +5,8 @@
 
 #include "mechanics/statics.h"
 #include "model/scaling.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 
 namespace vibratory_alignment {
 namespace {

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 #include "model/scaling.h"
+#include "model/setting.h"
 #include "model/solver_choice.h"
 #include "model/solver_names.h"
 #include "model/solver_rules.h"
 #include "model/tree_reader.h"
+#include "model/yaml_file.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -23,12 +24,6 @@ const std::vector<std::string> waveform_words = {"sine", "square", "triangle", "
 const std::vector<std::string> contact_words = {"edges", "corners", "walls"};
 
 const NumberRule axial_stiffness_rule = {"1, the unit of stiffness in a dimensionless scene", 1.0, 1.0, true, false};
-
-std::string message(const std::string& source, const std::vector<std::string>& faults) {
-  std::string lines;
-  for (const std::string& fault : faults) lines += (lines.empty() ? "" : "\n") + source + ": " + fault;
-  return lines;
-}
 
 class SceneReader {
  public:
@@ -365,32 +360,7 @@ void SceneReader::scale() {
   });
 }
 
-/// True when one of two key paths is the other or leads to it.
-bool on_one_way(const std::string& a, const std::string& b) {
-  const std::string &less = a.size() < b.size() ? a : b, &more = a.size() < b.size() ? b : a;
-  return more.compare(0, less.size(), less) == 0 && (more.size() == less.size() || more[less.size()] == '.');
-}
-
-bool is_replaced(const std::vector<ValueOrigin>& origins, std::size_t i) {
-  return std::any_of(origins.begin() + static_cast<std::ptrdiff_t>(i) + 1, origins.end(),
-                     [&](const ValueOrigin& later) { return later.key_path == origins[i].key_path; });
-}
-
 }  // namespace
-
-SceneError::SceneError(std::string source, std::vector<std::string> faults)
-    : std::runtime_error(message(source, faults)), source_(std::move(source)), faults_(std::move(faults)) {}
-
-ValueOrigin origin_of_setting(const std::string& setting) { return {setting.substr(0, setting.find('=')), setting}; }
-
-void name_origins(const std::vector<ValueOrigin>& origins, std::vector<std::string>& faults) {
-  for (std::string& fault : faults) {
-    const std::string place = fault.substr(0, fault.find(": "));
-    for (std::size_t i = 0; i < origins.size(); ++i)
-      if (on_one_way(place, origins[i].key_path) && !is_replaced(origins, i))
-        fault += " (set by " + origins[i].place + ")";
-  }
-}
 
 Scene load_scene(const YAML::Node& tree, const std::string& source, const std::vector<std::string>& settings) {
   TreeReader::Faults faults;
@@ -404,6 +374,12 @@ Scene load_scene(const YAML::Node& tree, const std::string& source, const std::v
   scene.source = source;
   if (scene.name.empty()) scene.name = std::filesystem::path(source).stem().string();
   return scene;
+}
+
+Scene load_scene_file(const std::string& path, const std::vector<std::string>& settings) {
+  YAML::Node tree = read_yaml_file(path);
+  for (const std::string& setting : settings) apply_setting(tree, setting);
+  return load_scene(tree, path, settings);
 }
 
 }  // namespace vibratory_alignment

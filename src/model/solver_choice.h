@@ -24,8 +24,8 @@ const char* solver_for_accuracy(const Scene& scene);
 /// Step of a solver with a fixed step where none is given, in radians of the fastest that the part may be moved by.
 inline constexpr double kDefaultStep = 0.02;
 
-/// That step for a dimensionless scene: kDefaultStep over the fastest of the excitation (nu), the contact (sqrt(k G) and
-/// h G, as above) and the gripper (sqrt(k/m) and h/m of each axis).
+/// That step for a dimensionless scene: kDefaultStep over the fastest of the excitation (nu), the contact (sqrt(k G)
+/// and h G, as above) and the gripper (sqrt(k/m) and h/m of each axis).
 double default_step(const Scene& scene);
 
 /// The tolerance of event, implicit and auto with which the pose at the end is exact to `accuracy`, dimensionless.

@@ -8,7 +8,8 @@
 #include <ros/callback_queue.h>
 #include <std_msgs/UInt32.h>
 
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "node/scene_service.h"
 #include "node/transforms.h"
 

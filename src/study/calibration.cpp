@@ -8,7 +8,8 @@
 #include <tuple>
 
 #include "model/number_text.h"
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
+#include "model/yaml_file.h"
 #include "study/calibration_search.h"
 #include "study/fingerprint.h"
 #include "study/formula.h"

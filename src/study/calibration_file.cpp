@@ -2,8 +2,9 @@
 
 #include <filesystem>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "model/tree_reader.h"
+#include "model/yaml_file.h"
 
 namespace vibratory_alignment {
 namespace {

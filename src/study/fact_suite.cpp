@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/design.h"
 #include "study/facts_file.h"
 #include "study/sweep.h"

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "model/tree_reader.h"
+#include "model/yaml_file.h"
 #include "study/formula.h"
 
 namespace vibratory_alignment {

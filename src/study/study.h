@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scene_loader.h"
+#include "model/setting.h"
 
 namespace vibratory_alignment {
 

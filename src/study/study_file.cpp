@@ -8,8 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
+#include "model/setting.h"
 #include "model/tree_reader.h"
+#include "model/yaml_file.h"
 #include "study/design.h"
 #include "study/study_refusals.h"
 

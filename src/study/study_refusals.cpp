@@ -4,7 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
+#include "model/setting.h"
 #include "study/design.h"
 #include "study/scramble.h"
 #include "study/trial_scenes.h"

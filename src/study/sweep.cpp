@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "study/design.h"
 #include "study/thread_group.h"
 #include "study/trial_scenes.h"

@@ -7,7 +7,8 @@
 
 #include "mechanics/system.h"
 #include "model/scaling.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "study/design.h"
 #include "study/trial_scenes.h"
 #include "study/trial_table.h"

@@ -6,7 +6,8 @@
 
 #include "mechanics/system.h"
 #include "model/scaling.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "solver/solver.h"
 #include "trial/contact_impulse.h"
 #include "trial/simulation.h"

@@ -6,6 +6,7 @@
 
 #include "model/number_text.h"
 #include "model/scene_loader.h"
+#include "model/setting.h"
 #include "model/tree_reader.h"
 
 namespace vibratory_alignment {

@@ -14,7 +14,7 @@
 
 #include "cli/interrupt.h"
 #include "hunt.h"
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "progress_line.h"
 #include "scene_text.h"
 #include "shrink.h"

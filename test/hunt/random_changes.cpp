@@ -4,7 +4,8 @@
 #include <cstddef>
 
 #include "dice.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 
 namespace vibratory_alignment::hunt {
 namespace {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "model/scene_loader.h"
+#include "model/setting.h"
+#include "model/yaml_file.h"
 
 namespace vibratory_alignment::hunt {
 namespace {

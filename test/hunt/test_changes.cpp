@@ -11,7 +11,8 @@
 
 #include "../support/scenes.h"
 #include "answer_checks.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "random_changes.h"
 #include "random_scene.h"
 #include "scene_text.h"

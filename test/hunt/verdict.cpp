@@ -9,7 +9,8 @@
 #include "dice.h"
 #include "mechanics/system.h"
 #include "model/number_text.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "trace.h"
 
 namespace vibratory_alignment::hunt {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/scene_loader.h"
+#include "model/setting.h"
 
 namespace vibratory_alignment::scene_text {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/scaling.h"
-#include "model/scene_loader.h"
+#include "model/scene.h"
 #include "scene_text.h"
 
 namespace vibratory_alignment {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "model/scene_loader.h"
+#include "model/setting.h"
 #include "model/tree_reader.h"
 #include "scene_text.h"
 

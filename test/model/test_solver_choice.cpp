@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scene_loader.h"
+#include "model/scene.h"
 #include "model/solver_choice.h"
 #include "scene_text.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "model/scene_loader.h"
+#include "model/yaml_file.h"
 #include "node/scene_from_params.h"
 #include "small_scene.h"
 

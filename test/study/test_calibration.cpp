@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/calibration_file.h"
 #include "study/shortfall_of_sets.h"
 #include "study_text.h"

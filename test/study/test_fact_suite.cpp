@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/scene_loader.h"
+#include "model/setting.h"
 #include "study/design.h"
 #include "study/trial_table.h"
 #include "study_text.h"

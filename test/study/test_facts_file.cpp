@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/facts_file.h"
 
 namespace vibratory_alignment {

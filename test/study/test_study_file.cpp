@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "model/scene_loader.h"
+#include "model/scene_error.h"
 #include "study/design.h"
 #include "study/study_refusals.h"
 #include "study_text.h"

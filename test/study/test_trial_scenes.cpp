@@ -7,7 +7,8 @@
 #include <functional>
 #include <sstream>
 
-#include "model/scene_loader.h"
+#include "model/scene.h"
+#include "model/scene_error.h"
 #include "study_text.h"
 
 namespace vibratory_alignment {

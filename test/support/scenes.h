@@ -6,6 +6,7 @@
 
 #include "mechanics/system.h"
 #include "model/scene_loader.h"
+#include "model/setting.h"
 
 namespace vibratory_alignment::test {
 
