@@ -22,6 +22,13 @@ struct Vec2 {
 /// a x b out of the plane; of a lever and a force: the moment, counter-clockwise.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
+/// What a force of one along `direction`, a unit vector, adds to the acceleration along it of the point of the part at
+/// which it acts. `lever`: its moment about the mass centre.
+inline double mobility_along(const System& system, const Vec2& direction, double lever) {
+  return direction.x * direction.x * system.x.inverse_inertia + direction.y * direction.y * system.y.inverse_inertia +
+         lever * lever * system.phi.inverse_inertia;
+}
+
 inline bool is_edge(Site site) { return site == Site::a1 || site == Site::a2; }
 
 /// +1 for the right one of a pair (a1, b1), -1 for the left one.

@@ -8,12 +8,13 @@
 #include <ros/this_node.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include "node/bag_writer.h"
 #include "node/node_parameters.h"
 
 namespace vibratory_alignment {
 namespace {
 
-const ros::Time kStartTime(1, 0);  ///< as in the bags of `align trial --bag`
+const ros::Time kStartTime(BagWriter::kStartTime);
 constexpr std::chrono::milliseconds kRepeatInterval(100);
 const ros::WallDuration kArrival(0.05);
 constexpr double kPatience = 1.0;  ///< with a node that may be dead [s]

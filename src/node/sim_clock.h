@@ -1,7 +1,7 @@
 // Publishes simulated time as ROS time on /clock.
 //
-// It starts at kStartTime, is never 0, advances with every sample, and goes back, to kStartTime, in set_back() alone. A
-// new trial goes on from the instant that was reached.
+// It starts at kStartTime, as bags do (bag_writer.h), is never 0, advances with every sample, and goes back, to
+// kStartTime, in set_back() alone. A new trial goes on from the instant that was reached.
 #pragma once
 
 #include <chrono>

@@ -13,9 +13,6 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Coefficients this large leave no room for what is computed from them.
-constexpr double kNearOverflow = 1e250;
-
 /// Order of the series of motions so fast that their high powers overflow.
 constexpr int kLowOrder = 8;
 

@@ -163,10 +163,7 @@ bool FrictionChoice::decide_alone(const State& state, const DriveForms& drives, 
   const double normal_force = probe_.loaded[i].normal_force[0];
   // what a force of one along t adds to V'
   const ContactKinematics k = contact_kinematics(system_, state, static_cast<Site>(site), probe_.contacts[site].face);
-  const double arm = cross(k.lever, k.tangent);
-  const double mobility = k.tangent.x * k.tangent.x * system_.x.inverse_inertia +
-                          k.tangent.y * k.tangent.y * system_.y.inverse_inertia +
-                          arm * arm * system_.phi.inverse_inertia;
+  const double mobility = mobility_along(system_, k.tangent, cross(k.lever, k.tangent));
   const double plus = probe_.loaded[i].slip_velocity[1];
   const double minus = plus + 2.0 * system_.friction * normal_force * mobility;
   const double doubt = kDoubt * (series_.slip_rate_size(probe_) + std::abs(plus) + std::abs(minus));

@@ -129,8 +129,7 @@ double spring_force_of(const System& system, const State& state, Site site, Face
   const auto [c, s] = tilt_of(state.phi);
   const ContactKinematics k = contact_kinematics(system, state, site, face);
   const double turn = cross(k.lever, k.normal), stiffness = stiffness_of(system, face, c, s);
-  const double mobility = k.normal.x * k.normal.x * system.x.inverse_inertia +
-                          k.normal.y * k.normal.y * system.y.inverse_inertia + turn * turn * system.phi.inverse_inertia;
+  const double mobility = mobility_along(system, k.normal, turn);
   const double rate = k.normal.x * velocity[0] + k.normal.y * velocity[1] + turn * velocity[2];
   return stiffness * std::abs(rate) * answer_time(stiffness, damping_of(system, face, c, s), mobility);
 }

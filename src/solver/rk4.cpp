@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace vibratory_alignment {
 namespace {
 
@@ -82,11 +81,7 @@ class RightHandSide {
   /// Dry friction: in the middle of the layer V decays with h lambda = 1, all contacts together; the method is stable
   /// up to 2.78.
   double dry_layer(const ContactPoint& p, double limit) const {
-    const double lever = p.tangent_lever();
-    const double mobility = p.tangent.x * p.tangent.x * system_.x.inverse_inertia +
-                            p.tangent.y * p.tangent.y * system_.y.inverse_inertia +
-                            lever * lever * system_.phi.inverse_inertia;
-    return std::max(layer_time_ * limit * mobility, kNarrowest);
+    return std::max(layer_time_ * limit * mobility_along(system_, p.tangent, p.tangent_lever()), kNarrowest);
   }
 
   const StepStart& start_;

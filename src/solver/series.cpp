@@ -7,12 +7,6 @@
 #include "solver/polynomial_roots.h"
 
 namespace vibratory_alignment {
-namespace {
-
-/// Terms this large leave no room for what is computed from them.
-constexpr double kNearOverflow = 1e250;
-
-}  // namespace
 
 double integral(const Series& series, int order, double from, double to) {
   double at_from = 0.0, at_to = 0.0;

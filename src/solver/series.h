@@ -12,6 +12,9 @@ namespace vibratory_alignment {
 constexpr int kMaxOrder = 40;
 using Series = std::array<double, kMaxOrder + 4>;
 
+/// Coefficients and terms this large leave no room for what is computed from them.
+constexpr double kNearOverflow = 1e250;
+
 /// Two series side by side, for what comes in pairs: x and y, cos and sin. Summed two at a time by the processor.
 struct PairSeries {
   Pair coefficient[kMaxOrder + 3];

@@ -5,11 +5,10 @@
 #include "model/scene_error.h"
 #include "model/tree_reader.h"
 #include "model/yaml_file.h"
+#include "study/study.h"
 
 namespace vibratory_alignment {
 namespace {
-
-const std::vector<std::string> spacing_words = {"linear", "log"};
 
 bool has_in_range(const CalibrationParameter& parameter, double value) {
   return value >= parameter.from && value <= parameter.to;

@@ -31,6 +31,9 @@ struct Dimension {
   bool sampled() const { return count == 0; }
 };
 
+/// Words for how values are spread over a range: evenly, or evenly in their logarithm.
+inline const std::vector<std::string> spacing_words = {"linear", "log"};
+
 // In study_file.cpp the words for these stand in the same order.
 enum class SampleMethod { sobol, random };
 

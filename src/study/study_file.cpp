@@ -20,7 +20,6 @@ namespace {
 
 // The words for an enumerator stand at its index.
 const std::vector<std::string> method_words = {"sobol", "random"};
-const std::vector<std::string> spacing_words = {"linear", "log"};
 const std::vector<std::string> role_words = {"value", "offset"};
 
 const NumberRule count_rule = {"a whole number from 2 to 1e9", 2.0, 1e9, true, true};
