@@ -10,7 +10,7 @@ import unittest
 
 import rosbag
 
-from align_test_case import AlignTestCase
+from align_test_case import SOURCE_ROOT, AlignTestCase
 
 COLUMNS = (
     "t,x,y,phi,vx,vy,omega,n1,n2,t1,t2,nb1,nb2,tb1,tb2,nf1,nf2,tf1,tf2,event".split(",")
@@ -137,6 +137,11 @@ class TerminalTest(AlignTestCase):
     def test_shows_how_far_the_run_is(self):
         seen = self.seen("trial", self.scene(), "--until", "1e6", until=b"at t = ")
         self.assertRegex(seen, rb"\r\x1b\[K\[[#.]+\] +\d+ %  at t = ")
+
+    def test_shows_it_in_the_unit_of_the_scene(self):
+        scene = os.path.join(SOURCE_ROOT, "config/scenes/gripper_si.yaml")
+        words = b" of at most 12345,"
+        self.assertIn(words, self.seen("trial", scene, "--until", "12345", until=words))
 
     def test_has_no_bar_among_the_rows(self):
         seen = self.seen("trial", self.scene(), "--until", "1e6", "--csv", "/dev/stdout", "--sample", "100")

@@ -240,6 +240,19 @@ TEST(TrialRun, RestartMayHaveOtherLimits) {
   EXPECT_FALSE(run.result().force_limit_exceeded);
 }
 
+TEST(TrialRun, EndsWithoutASampleWhereItsFirstStepFails) {
+  Scene scene = small_scene::load();
+  scene.excitations[0].frequency = 1e100;
+  TrialRun run(scene, kInterval);
+  Sample sample;
+  EXPECT_FALSE(run.next(sample));
+  EXPECT_TRUE(run.ended());
+  const TrialResult result = run.result();
+  EXPECT_EQ(result.outcome, Outcome::failed);
+  EXPECT_EQ(result.final_time, 0.0);
+  EXPECT_FALSE(result.failure.empty());
+}
+
 TEST(TrialRun, RestartThatIsImpossibleLeavesTheTrialAsItWas) {
   TrialRun run(small_scene::load(), kInterval);
   skip(run, 10);
