@@ -6,7 +6,7 @@ A client of the action ~align of aligner_node, as a sequencer of one's own would
   ~parts    list of maps: `part`, the name for the report, and any fields of the action's goal (action/Align.action)
   ~patience wall time for one part [s] (default: 120)
 Topic ~report (std_msgs/String, latched): a list of results as YAML, when the last part is done.
-All parts are checked before the first one is aligned.
+The fields of all parts are checked before the first one is aligned; what they name, like a scene, by the aligner.
 Exit status: 0 every part is in its slot, 1 some are not, the aligner does not answer, or a part cannot be asked for.
 """
 import sys
@@ -48,6 +48,9 @@ def goal_of(part):
 
 def goals_of(parts):
     """The goals of all parts, None if one is impossible: what is wrong with each has been said then."""
+    if not (isinstance(parts, list) and parts and all(isinstance(part, dict) for part in parts)):
+        rospy.logfatal('%s: must be a list of maps, one for each part: %r', rospy.resolve_name('~parts'), parts)
+        return None
     goals, faults = [], []
     for number, part in enumerate(parts):
         try:
@@ -95,7 +98,7 @@ def align(client, name, goal, patience):
 def main():
     rospy.init_node('cell')
     server = rospy.resolve_name(rospy.get_param('~aligner', 'aligner')) + '/align'
-    parts = rospy.get_param('~parts')
+    parts = rospy.get_param('~parts', None)
     goals = goals_of(parts)
     if goals is None:
         return 1

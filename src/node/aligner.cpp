@@ -24,7 +24,6 @@ constexpr std::chrono::seconds kSubscriberPatience(30);
 constexpr std::chrono::seconds kClockPatience(5);
 constexpr std::chrono::milliseconds kSubscriberSettling(500);  ///< a recorder's other topics connect in this time
 constexpr std::chrono::milliseconds kIdleWait(50);             ///< longest wait for callbacks
-constexpr double kMasterPatience = 0.05;                       ///< for a master that does not answer [s]
 const ros::WallDuration kFarewell(0.1);                        ///< for what is still to be sent
 const ros::Duration kWallClockCorrection(1.0);                 ///< back by less than this is no jump
 
@@ -43,8 +42,7 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
       frames_(frames_with_prefix(parameters.tf_prefix)),
       stage_(std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_,
                                      sample_interval(parameters, scene))),
-      first_interval_(stage_->interval),
-      first_time_unit_(stage_->seconds(1.0)),
+      interval_{stage_->interval, stage_->seconds(1.0)},
       stamps_(ros::Time::isSimTime() ? ros::Duration() : kWallClockCorrection),
       samples_(private_handle, frames_),
       diagnostics_(private_handle),
@@ -61,9 +59,6 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
   settings_server_.setCallback([this](AlignerConfig& requested, std::uint32_t) { on_settings(requested); });
   start_time_scale_.restore();
   waiting_since_ = Clock::now();
-  // From here on a dead master must not stop the trial: a changed setting is told to it, and that blocks until it
-  // answers.
-  ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
   std::vector<std::string> services;
   for (const char* name : {"get_loggers", "set_logger_level", "set_parameters"}) {  // roscpp's own come first
     services.push_back(handle_.resolveName(name));
@@ -75,14 +70,14 @@ Aligner::Aligner(const ros::NodeHandle& private_handle, const Scene& scene, cons
 void Aligner::advertise() {
   publishers_ = samples_.publishers();
   publishers_["markers"] = handle_.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, true);
-  publishers_["result"] = handle_.advertise<AlignerResult>("result", 1, true);
+  publishers_["result"] = handle_.advertise<AlignerResult>("result", kQueueSize, true);
   services_ = {handle_.advertiseService("start", &Aligner::on_start, this),
                handle_.advertiseService("pause", &Aligner::on_pause, this),
                handle_.advertiseService("step", &Aligner::on_step, this),
                handle_.advertiseService("step_by", &Aligner::on_step_by, this),
                handle_.advertiseService("reset", &Aligner::on_reset, this),
                advertise_load_scene(handle_, [this](const Scene& scene) { return change_scene(scene); })};
-  restart_publisher_ = handle_.advertise<std_msgs::UInt32>("restarts", 1, true);
+  restart_publisher_ = handle_.advertise<std_msgs::UInt32>("restarts", kQueueSize, true);
   announce_restart();
   publish_static_transforms();
 }
@@ -107,8 +102,18 @@ double Aligner::due_in() const {
 
 void Aligner::spin(const std::function<bool()>& interrupted) {
   interrupted_ = interrupted;
-  run_trials();
-  if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), "the node ends");
+  try {
+    run_trials();
+    end_goal("the node ends");
+  } catch (const std::exception& error) {
+    end_goal(std::string("the node ends: ") + error.what());
+    throw;
+  }
+}
+
+/// Before the node ends.
+void Aligner::end_goal(const std::string& text) {
+  if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), text);
   if (ros::ok()) kFarewell.sleep();
 }
 
@@ -213,6 +218,7 @@ void Aligner::publish_end_if_due(Clock::time_point turn_end) {
 bool Aligner::publish_next(const std::function<bool()>& go_on, double latest) {
   const double before = stage_->trial.time();
   Sample sample;
+  start_fault_.clear();
   try {
     if (!stage_->trial.next(sample, go_on, latest)) {
       if (stage_->trial.ended()) finish();
@@ -220,10 +226,10 @@ bool Aligner::publish_next(const std::function<bool()>& go_on, double latest) {
     }
   } catch (const SceneError& error) {
     // settings changed before the start may leave the scene without one
-    const std::string text = std::string("The trial cannot start with these settings: ") + error.what();
-    ROS_ERROR("%s", text.c_str());
+    start_fault_ = std::string("The trial cannot start with these settings: ") + error.what();
+    ROS_ERROR("%s", start_fault_.c_str());
     set_activity(Activity::paused);
-    if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), text);
+    if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), start_fault_);
     return false;
   }
   pace_meter_.add_sample(stage_->seconds(sample.time - before));
@@ -298,7 +304,7 @@ void Aligner::report_health() {
 /// Samples of all scenes come after the same simulated time, except with ~time_scale 0.
 double Aligner::interval_of(const Scene& scene) const {
   if (!parameters_.sample_interval && parameters_.time_scale == 0.0) return sample_interval(parameters_, scene);
-  return first_interval_ * (first_time_unit_ / ros_units(scene).time);
+  return interval_.of_scene * (interval_.time_unit / ros_units(scene).time);
 }
 
 ros::Time Aligner::next_stamp() {

@@ -85,11 +85,14 @@ class Aligner {
   void publish_static_transforms();
   void announce_restart();
   void finish();
+  void end_goal(const std::string& text);
+  void begin();
   struct Steps {
     long published = 0;
     bool cut_short = false;  ///< the solver takes too long
   };
   Steps step(long samples);
+  std::string refusal_to_step();
   std::string place_after(const Steps& steps) const;
   void report_health();
   void warn_without_clock();
@@ -104,12 +107,17 @@ class Aligner {
   NodeParameters parameters_;
   Frames frames_;
   std::unique_ptr<Stage> stage_;
-  const double first_interval_, first_time_unit_;  ///< sample interval and seconds per unit of time of the first scene
+  /// Time between two samples, dimensionless, of the scene for which it was set, and that scene's unit of time [s].
+  struct Interval {
+    double of_scene, time_unit;
+  };
+  Interval interval_;
   Pacer pacer_;
   PaceMeter pace_meter_;
   std::function<bool()> interrupted_;  ///< set by spin()
   Activity activity_ = Activity::waiting;
   const Clock::time_point started_ = Clock::now();
+  std::string start_fault_;       ///< why the present settings leave the trial without a start
   bool clock_is_missed_ = false;  ///< and that has been said
   Clock::time_point waiting_since_, all_subscribed_at_, next_picture_, next_pose_, ended_at_;
   bool all_subscribed_ = false;

@@ -6,9 +6,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
+
+#include <unistd.h>
 
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
@@ -25,8 +28,16 @@ namespace {
 std::atomic<bool> interrupted{false}, initialized{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler uses them");
 
+/// The longest that an orderly end takes where the master, which roscpp asks without end, does not answer [s].
+constexpr unsigned kLongestEnd = 2;
+
+constexpr double kMasterPatience = 0.05;  ///< for a master that has gone [s]
+
+extern "C" void on_alarm(int) { std::_Exit(EXIT_SUCCESS); }
+
 extern "C" void on_signal(int) {
   interrupted = true;
+  alarm(kLongestEnd);
   // ros::init() waits for a master to give it the command line's parameters; nobody knows of the node as yet
   if (!initialized) std::_Exit(EXIT_SUCCESS);
 }
@@ -47,6 +58,7 @@ void on_shutdown_request(XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answ
   if (request.getType() == XmlRpc::XmlRpcValue::TypeArray && request.size() > 1) request[1].write(reason);
   ROS_WARN("Told to end: %s", reason.str().c_str());
   interrupted = true;
+  alarm(kLongestEnd);
   answer = ros::xmlrpc::responseInt(1, "", 0);
 }
 
@@ -63,20 +75,42 @@ int main(int argc, char** argv) {
   using namespace vibratory_alignment;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
+  std::signal(SIGALRM, on_alarm);
+  try {
+    ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);
+  } catch (const ros::Exception& error) {
+    return fail(error.what());
+  }
   initialized = true;
   const int master = wait_for_master();
   if (master == 0) return EXIT_SUCCESS;
+  // From here on a master that dies stops nothing. What it has not been told then, MasterWatch tells the next one.
+  ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
   const ros::NodeHandle private_handle("~");
   // roscpp's own answer would shut ROS down before a goal can be ended
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown_request);
+  // The first line that roscpp logs to ~rosout asks for this, and tells the master of this node as it does so: once
+  // another one has taken the name, that would end the other one
+  bool unused = false;
+  ros::param::getCached("/rosout_disable_topics_generation", unused);
+  if (!ros::ok()) return EXIT_SUCCESS;  // told to end before that was bound
+  std::optional<Scene> scene;
+  NodeParameters parameters;
+  std::string fault;
   try {
     warn_of_unknown_parameters(private_handle);
-    const Scene scene = scene_from_params(private_handle);
-    const NodeParameters parameters = read_node_parameters(private_handle, scene);
-    warn_of_unread_settings(private_handle, DriveSettings(scene, parameters.time_scale).config());
-    Aligner aligner(private_handle, scene, parameters, master);
+    scene = scene_from_params(private_handle);
+    parameters = read_node_parameters(private_handle, *scene);
+    warn_of_unread_settings(private_handle, DriveSettings(*scene, parameters.time_scale).config());
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  // what a master that goes does not tell looks as if it were not set
+  if (master_process() != master) fault = "the master went while the parameters were read: start the node again";
+  if (!fault.empty()) return fail(fault);
+  try {
+    Aligner aligner(private_handle, *scene, parameters, master);
     aligner.spin([] { return interrupted.load(); });
   } catch (const std::exception& error) {
     return fail(error.what());

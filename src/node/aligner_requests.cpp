@@ -19,13 +19,21 @@ constexpr char kNotStarted[] = "not started yet";
 
 }  // namespace
 
+/// Before what goes on with the trial: publishes its start, where nobody has to be waited for. The last attempt may
+/// have found that there is none.
+void Aligner::begin() {
+  if (activity_ == Activity::waiting) wait_for_subscribers();
+  if (activity_ == Activity::paused && !samples_.has_last()) show_start();
+}
+
 bool Aligner::on_start(Trigger::Request&, Trigger::Response& response) {
-  response.success = activity_ != Activity::ended;
+  begin();
+  response.success = activity_ != Activity::ended && start_fault_.empty();
   if (activity_ == Activity::waiting) {
     parameters_.autostart = true;
     response.message = "starts as soon as the subscribers are there";
-  } else if (activity_ == Activity::ended) {
-    response.message = kEnded;
+  } else if (!response.success) {
+    response.message = activity_ == Activity::ended ? kEnded : start_fault_;
   } else {
     if (activity_ == Activity::paused) run();
     response.message = "running";
@@ -42,13 +50,17 @@ bool Aligner::on_pause(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool Aligner::on_step(Trigger::Request&, Trigger::Response& response) {
-  response.success = activity_ == Activity::running || activity_ == Activity::paused;
-  if (!response.success) {
-    response.message = activity_ == Activity::ended ? kEnded : kNotStarted;
-    return true;
-  }
-  response.message = place_after(step(1));
+  response.message = refusal_to_step();
+  response.success = response.message.empty();
+  if (response.success) response.message = place_after(step(1));
   return true;
+}
+
+/// Why no step is possible now; empty if one is.
+std::string Aligner::refusal_to_step() {
+  begin();
+  if (activity_ == Activity::ended) return kEnded;
+  return activity_ == Activity::waiting ? kNotStarted : start_fault_;
 }
 
 /// Pauses, and publishes up to so many samples.
@@ -86,10 +98,8 @@ bool Aligner::on_step_by(StepBy::Request& request, StepBy::Response& response) {
   } else if (!(samples >= 1.0 && samples <= kLongestStep)) {
     fault << (by_samples ? "samples: " : "duration: ") << (by_samples ? request.samples : request.duration)
           << ": must be 1 to " << kLongestStep << " samples; one lasts " << stage_->interval * unit;
-  } else if (activity_ == Activity::ended) {
-    fault << kEnded;
-  } else if (activity_ == Activity::waiting) {
-    fault << kNotStarted;
+  } else {
+    fault << refusal_to_step();
   }
   response.success = fault.str().empty();
   response.message = fault.str();
@@ -116,6 +126,7 @@ bool Aligner::on_reset(Trigger::Request&, Trigger::Response& response) {
   }
   if (align_server_.active()) align_server_.abort(stage_->messages, so_far, "the trial was reset");
   parameters_.autostart = false;
+  start_fault_.clear();
   announce_restart();
   if (sim_clock_) set_clock_back();
   samples_.forget_last();
@@ -145,7 +156,7 @@ void Aligner::show_start() {
 
 /// A trial may fail in its first step.
 std::string Aligner::place_at_start() const {
-  if (activity_ != Activity::ended) return "paused at the start";
+  if (activity_ != Activity::ended) return start_fault_.empty() ? "paused at the start" : start_fault_;
   return "the trial fails at the start: " + stage_->trial.result().failure;
 }
 
@@ -154,16 +165,18 @@ std::string Aligner::change_scene(const Scene& scene) {
   NodeParameters parameters = parameters_;
   parameters.time_scale = stage_->settings.config().time_scale;
   double interval = interval_of(scene);
-  if (scene.scales.has_value() != stage_->scene.scales.has_value()) {  // seconds mean nothing to one of the two
+  // seconds mean nothing to one of the two
+  const bool sets_anew = scene.scales.has_value() != stage_->scene.scales.has_value();
+  if (sets_anew) {
     parameters.time_scale = usual_time_scale(scene);
     interval = sample_interval(parameters, scene);
   }
   auto next =
       std::make_unique<Stage>(scene, DriveSettings(scene, parameters.time_scale), TrialLimits(), frames_, interval);
-  if (align_server_.active())
-    align_server_.abort(stage_->messages, stage_->trial.result(), "another scene was loaded");
+  if (align_server_.active()) align_server_.abort(stage_->messages, stage_->trial.result(), "another scene was loaded");
   parameters_.autostart = false;
   change_stage(std::move(next), true);
+  if (sets_anew) interval_ = {stage_->interval, stage_->seconds(1.0)};
   tell_settings();
   if (activity_ != Activity::waiting) show_start();
   return scene.name + ": " + place_at_start();
@@ -174,6 +187,7 @@ void Aligner::change_stage(std::unique_ptr<Stage> next, bool other_scene) {
   if (other_scene) warn_without_scales(next->scene);
   publishers_["markers"].publish(stage_->markers.clear(next_stamp()));
   stage_ = std::move(next);
+  start_fault_.clear();
   samples_.forget_last();
   announce_restart();
   if (sim_clock_) sim_clock_->begin_trial();

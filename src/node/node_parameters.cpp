@@ -146,6 +146,12 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_handle, const
     }
     parameters.wait_for_subscribers.push_back(topic);
   }
+  const double interval = sample_interval(parameters, scene);
+  if (!has_sane_size(interval)) {
+    const char* name = parameters.sample_interval ? "sample_interval" : "publish_rate";
+    reader.fault(name, number_text(parameters.sample_interval.value_or(parameters.publish_rate)),
+                 "the time between two samples is too long or too short, by a factor of 1e100");
+  }
   reader.throw_faults();
   return parameters;
 }

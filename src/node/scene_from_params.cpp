@@ -48,7 +48,8 @@ Scene scene_from_params(const ros::NodeHandle& private_handle) {
   }
   if (has_file) {
     std::string path;
-    if (!private_handle.getParam("scene_file", path)) throw SceneError(file_name, {"must be the path of a scene file"});
+    if (!private_handle.getParam("scene_file", path) || path.empty())
+      throw SceneError(file_name, {"must be the path of a scene file"});
     return load_scene_file(path);
   }
   if (!has_tree) {

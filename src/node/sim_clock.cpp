@@ -1,5 +1,6 @@
 #include "node/sim_clock.h"
 
+#include <stdexcept>
 #include <string>
 
 #include <XmlRpc.h>
@@ -8,6 +9,7 @@
 #include <ros/this_node.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include "model/number_text.h"
 #include "node/bag_writer.h"
 #include "node/node_parameters.h"
 
@@ -65,6 +67,15 @@ SimClock::SimClock(const ros::NodeHandle& private_handle) : start_(kStartTime), 
   if (!other.empty()) throw ParameterError(name + ": true: " + other + " publishes /clock already");
   publisher_ = ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 1000, true);
   publish(kStartTime);
+}
+
+ros::Time SimClock::at(double seconds) const {
+  try {
+    return start_ + ros::Duration(seconds);
+  } catch (const std::runtime_error&) {
+    throw std::runtime_error("/clock: ROS time has no instant " + number_text(seconds) +
+                             " s after the start of the trial: ~publish_clock is not for such a scene");
+  }
 }
 
 void SimClock::publish(const ros::Time& time) {

@@ -19,8 +19,9 @@ class SimClock {
   /// Throws ParameterError unless /use_sim_time is true and nobody else publishes /clock.
   explicit SimClock(const ros::NodeHandle& private_handle);
 
-  /// ROS time of the simulated instant `seconds` since the start of the trial.
-  ros::Time at(double seconds) const { return start_ + ros::Duration(seconds); }
+  /// ROS time of the simulated instant `seconds` since the start of the trial. Throws std::runtime_error where ROS time
+  /// does not go as far.
+  ros::Time at(double seconds) const;
 
   void publish(const ros::Time& time);
 

@@ -63,6 +63,14 @@ class BadStart(unittest.TestCase):
     def test_missing_file(self):
         self.assert_refused('/no/such/scene.yaml', arguments=('_scene_file:=/no/such/scene.yaml',))
 
+    def test_empty_name_of_the_file(self):
+        self.assert_refused('/bad/scene_file', arguments=('_scene_file:=',))
+
+    def test_name_that_is_none(self):
+        status, log = start('__name:=a-b')
+        self.assertEqual(status, 1, log)
+        self.assertIn('a-b', log)
+
     def test_empty_and_binary_file(self):
         for content in (b'', b'\x7fELF\x00\x01\xff\xfe' * 20):
             with tempfile.NamedTemporaryFile(suffix='.yaml') as file:
@@ -83,7 +91,7 @@ class BadStart(unittest.TestCase):
         for name, value in (('time_scale', -1.0), ('time_scale', float('nan')), ('publish_rate', 0),
                             ('autostart', 'maybe'), ('slot_position', [1, 2]), ('wait_for_subscribers', 'nonsense'),
                             ('feedback_rate', 0), ('publish_clock', 'yes'),
-                            ('publish_clock', True)):
+                            ('publish_clock', True), ('publish_rate', 1e-308), ('sample_interval', 1e308)):
             rospy.set_param('/bad/scene', self.scene)
             rospy.set_param('/bad/' + name, value)
             self.assert_refused('/bad/' + name)

@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import tempfile
 import time
 from xmlrpc.client import ServerProxy
 
@@ -73,8 +74,6 @@ class Faults(AlignerTestCase):
         self.assertEqual(Client('/aligner', timeout=15.0).get_configuration(timeout=5.0)['time_scale'], 0.01)
 
     def test_time_scale_that_was_not_given_is_no_parameter_later(self):
-        if rospy.has_param('/own'):
-            rospy.delete_param('/own')
         self.start_own(time_scale=None)
         client = Client('/own', timeout=15.0)
         for scale in (0.5, 0.25):
@@ -89,13 +88,14 @@ class Faults(AlignerTestCase):
             time.sleep(0.05)
         return rospy.has_param(name)
 
-    def start_own(self, time_scale=0.01, autostart='false', wait_for=None):
+    def start_own(self, time_scale=0.01, autostart='false', wait_for=None, scene='small', sample_interval=0.001):
         """An aligner that roslaunch knows nothing of."""
-        others = [] if time_scale is None else ['_time_scale:=%g' % time_scale]
-        if wait_for:
-            others.append('_wait_for_subscribers:=' + wait_for)
-        process = self.spawn(program('aligner_node'), '__name:=own', '_scene_file:=' + scene_path('small'),
-                             '_sample_interval:=0.001', '_autostart:=' + autostart, *others)
+        if rospy.has_param('/own'):
+            rospy.delete_param('/own')
+        optional = dict(time_scale=time_scale, sample_interval=sample_interval, wait_for_subscribers=wait_for)
+        others = ['_%s:=%s' % (name, value) for name, value in optional.items() if value is not None]
+        process = self.spawn(program('aligner_node'), '__name:=own', '_scene_file:=' + scene_path(scene),
+                             '_autostart:=' + autostart, *others)
         self.node = '/own'
         rospy.wait_for_service('/own/step', 15.0)
         return process
@@ -114,6 +114,45 @@ class Faults(AlignerTestCase):
             self.assertTrue(states.wait_for(20))
             self.assert_ends_at_once(process, process.terminate)
 
+    def test_settings_without_a_start_are_told_by_every_service(self):
+        self.start_own(wait_for='result')
+        states = self.listen('state')
+        client = Client('/own', timeout=15.0)
+        client.update_configuration({'pressing_force': 0.0})
+        self.assertIn('as soon as', self.call('start').message)
+        self.assertIn('not started', self.call('step').message)
+        self.listen('result')
+        time.sleep(1.0)
+        for response in (self.call('start'), self.call('step'), self.step_by(samples=3)):
+            self.assertFalse(response.success)
+            self.assertIn('cannot start', response.message)
+        self.assertEqual(states.messages, [])
+        client.update_configuration({'pressing_force': 0.2})
+        self.assertEqual(self.step_by(samples=3).samples, 3)
+        self.assertTrue(states.wait_for(4))
+        self.assertTrue(self.call('start').success)
+        self.assertTrue(states.wait_for(20))
+
+    def test_scenes_after_one_with_other_scales_keep_its_rate(self):
+        self.start_own(time_scale=None, sample_interval=None)
+        states = self.listen('state')
+        load = rospy.ServiceProxy('/own/load_scene', LoadScene)
+        with open(scene_path('small')) as small:
+            text = small.read()
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write(''.join(line + '\n' for line in text.splitlines() if not line.startswith('scales')))
+            file.flush()
+            for scenes in ([scene_path('small')] * 2, [file.name] * 2, [scene_path('small')] * 2):
+                intervals = []
+                for scene in scenes:
+                    states.forget(0)
+                    self.assertTrue(load(scene).success)
+                    response = self.step_by(samples=1)
+                    self.assertEqual(response.samples, 1, response.message)
+                    self.assertTrue(states.wait_for(2))
+                    intervals.append(states.messages[-1].tau)
+                self.assertEqual(intervals[0], intervals[1])
+
     def assert_ends_at_once(self, process, end):
         start = time.time()
         end()
@@ -125,10 +164,14 @@ class Faults(AlignerTestCase):
         first = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.addCleanup(first.kill)
         rospy.wait_for_service('/own/step', 15.0)
-        self.spawn(*arguments)
+        second = self.spawn(*arguments)
         output, _ = first.communicate(timeout=10.0)
         self.assertEqual(first.returncode, 0)
         self.assertIn('new node registered with same name', output)
+        time.sleep(1.0)
+        self.assertIsNone(second.poll(), 'what the first one does at its end ends the second one')
+        self.node = '/own'
+        self.assertTrue(self.call('step').success)
 
     def test_subscriber_that_never_reads(self):
         process = self.start_own()

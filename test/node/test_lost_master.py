@@ -70,6 +70,26 @@ class LostMaster(unittest.TestCase):
         self.master.kill()
         self.assertEqual(node.wait(10.0), 0)
 
+    def test_ends_beside_a_master_that_does_not_answer(self):
+        node = self.start_node('_time_scale:=0.0005')
+        self.wait_until(lambda: '/aligner/step' in self.registered(), 'not registered')
+        self.addCleanup(self.master.send_signal, signal.SIGCONT)
+        self.master.send_signal(signal.SIGSTOP)
+        time.sleep(2.5)
+        node.send_signal(signal.SIGINT)
+        self.assertEqual(node.wait(5.0), 0)
+
+    def test_master_that_goes_while_the_node_starts_stops_nothing(self):
+        for delay in (0.02, 0.05, 0.1, 0.15, 0.2):
+            node = self.start_node('_time_scale:=0.0005', '_autostart:=false')
+            time.sleep(delay)
+            self.master.kill()
+            self.master.wait()
+            time.sleep(1.0)
+            node.send_signal(signal.SIGINT)
+            self.assertIn(node.wait(5.0), (0, 1), delay)  # 1: there was no master to read the parameters from
+            self.start_master()
+
     def test_new_master_while_the_node_starts_knows_all_of_it(self):
         self.replace_master(pid=1)
         node = self.start_node('_time_scale:=0.0005', '_autostart:=false')
