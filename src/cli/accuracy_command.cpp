@@ -198,8 +198,10 @@ int run_accuracy(const AccuracyCommandOptions& options) {
   if (picture) {
     const TemporaryFile table(options.plot);
     write_csv(table.path(), table.path(), scene, runs, *reference);
-    require_script("plot_accuracy.py", {table.path(), picture->temporary(), "--format", format, "--title", scene.name},
-                   "--plot", interrupt);
+    require_script(
+        "plot_accuracy.py",
+        {path_word(table.path()), path_word(picture->temporary()), "--format", format, "--title=" + scene.name},
+        "--plot", interrupt);
     if (interrupt.signal() != 0) {
       std::fprintf(stderr, "align: interrupted; no picture is written\n");
       return 128 + interrupt.signal();

@@ -74,16 +74,18 @@ auto with_refusals(const Action& action) {
   }
 }
 
-/// Throws UsageError for an output that would overwrite an input or the other output.
-void check_outputs(const CalibrateCommandOptions& options, const Calibration& calibration) {
-  std::vector<NamedFile> inputs = suite_inputs(load_fact_suite(calibration.facts_file, find_scene));
+/// Throws UsageError for an output that would overwrite an input or the other output, SceneError for what cannot run.
+void check(const CalibrateCommandOptions& options, const Calibration& calibration) {
+  const FactSuite suite = load_fact_suite(calibration.facts_file, find_scene);
+  std::vector<NamedFile> inputs = suite_inputs(suite);
   inputs.push_back({"the calibration", calibration.source});
   refuse_overwriting(inputs, {{"--report", options.report}, {"--log", options.log}});
+  check_calibration(calibration, suite);
 }
 
 int run_calibrate(const CalibrateCommandOptions& options) {
   const Calibration calibration = with_refusals([&] { return load_calibration(options.file); });
-  with_refusals([&] { check_outputs(options, calibration); });
+  with_refusals([&] { check(options, calibration); });
   const InterruptGuard interrupt;
   std::unique_ptr<OutputPath> report;
   if (!options.report.empty()) report = std::make_unique<OutputPath>("--report", options.report);

@@ -28,9 +28,22 @@ bool leads_to(int descriptor, const std::string& path) {
          stream.st_ino == file.st_ino;
 }
 
+/// What a path leads to through symbolic links, whether or not it is there. Throws std::system_error.
+fs::path without_links(fs::path path) {
+  constexpr int kMostLinks = 40;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(path)); ++links) {
+    if (links == kMostLinks) throw std::system_error(ELOOP, std::generic_category(), path.string());
+    path = path.parent_path() / fs::read_symlink(path);
+  }
+  return path;
+}
+
 /// "TARGET.part", made unless it is there. Throws std::system_error.
 std::string kept_file(const std::string& target) {
   const std::string path = target + ".part";
+  const fs::file_status status = fs::status(path);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw std::system_error(EEXIST, std::generic_category(), path + ": is not a regular file, and in the way");
   std::FILE* const file = std::fopen(path.c_str(), "ab");
   if (file == nullptr) throw std::system_error(errno, std::generic_category(), path);
   std::fclose(file);
@@ -52,15 +65,14 @@ OutputPath::OutputPath(const std::string& option, const std::string& path, Unfin
   if (exists && !fs::is_regular_file(status)) return;
   if (exists && (is_stdout(path) || leads_to(STDERR_FILENO, path)))
     refuse(option, path, "it is the file that the command's own output goes to");
-  if (exists) {
-    const fs::path resolved = fs::canonical(path, error);
-    if (!error) target_ = resolved.string();
-  }
   try {
+    target_ = without_links(path).string();
     if (unfinished == Unfinished::kept)
       kept_ = kept_file(target_);
     else
       own_.emplace(target_);
+    // the new file has the rights of the one whose place it takes
+    if (exists) fs::permissions(temporary(), status.permissions());
   } catch (const std::system_error& failure) {
     refuse(option, path, failure.what());
   }

@@ -53,16 +53,18 @@ int run_plot(const PlotCommandOptions& options) {
   refuse_overwriting({{"the trial", options.trial}}, {{"PICTURE", options.picture}});
   const InterruptGuard interrupt;
   OutputPath picture("PICTURE", options.picture);
-  std::vector<std::string> arguments = {options.trial, picture.temporary(), "--format", format};
+  std::vector<std::string> arguments = {path_word(options.trial), path_word(picture.temporary()), "--format", format};
   if (options.si) arguments.emplace_back("--si");
-  if (!options.node.empty()) arguments.insert(arguments.end(), {"--node", options.node});
-  if (!options.title.empty()) arguments.insert(arguments.end(), {"--title", options.title});
+  if (!options.node.empty()) arguments.push_back("--node=" + options.node);
+  if (!options.title.empty()) arguments.push_back("--title=" + options.title);
   const int status = run_script("plot_trial.py", arguments, "plot", interrupt);
   if (interrupt.signal() != 0) {
     std::fprintf(stderr, "align: interrupted; no picture is written\n");
     return 128 + interrupt.signal();
   }
-  if (status == 0) picture.commit();
+  if (status != kExitRan && status != kExitFailed && status != kExitUsage)
+    throw std::runtime_error("plot: plot_trial.py failed with exit status " + std::to_string(status));
+  if (status == kExitRan) picture.commit();
   return status;
 }
 

@@ -172,7 +172,7 @@ int run_command(const ReproduceCommandOptions& options) {
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;
   if (!std::cout) throw OutputError("stdout", "the ledger is lost");
   if (!options.no_pictures) {
-    require_script("plot_figures.py", {folder.string()}, "pictures", interrupt);
+    require_script("plot_figures.py", {path_word(folder.string())}, "pictures", interrupt);
     if (interrupt.signal() != 0) {
       std::fprintf(stderr, "align: interrupted; not all pictures are drawn\n");
       return 128 + interrupt.signal();

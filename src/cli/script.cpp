@@ -43,6 +43,8 @@ int wait_for(pid_t child, const InterruptGuard& interrupt) {
 
 }  // namespace
 
+std::string path_word(const std::string& path) { return path.compare(0, 1, "-") == 0 ? "./" + path : path; }
+
 int run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& purpose,
                const InterruptGuard& interrupt) {
   const std::filesystem::path script = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;

@@ -8,6 +8,9 @@
 
 namespace vibratory_alignment {
 
+/// A path as a word that no script takes for an option.
+std::string path_word(const std::string& path);
+
 /// Runs the script `name` that is installed beside this program, waits for it, and returns its exit status: 0 it did
 /// what it is for; otherwise it has said on stderr why not. Ended by a signal: 128 + its number. A signal that has come
 /// to `interrupt` is passed on to it; what it returns means nothing then.

@@ -9,10 +9,12 @@
 
 #include "model/number_text.h"
 #include "model/scene_error.h"
+#include "model/setting.h"
 #include "model/yaml_file.h"
 #include "study/calibration_search.h"
 #include "study/fingerprint.h"
 #include "study/formula.h"
+#include "study/study_refusals.h"
 #include "study/thread_group.h"
 
 namespace vibratory_alignment {
@@ -30,22 +32,64 @@ void append(const CalibrationSettings& settings, const Table& parameters, FactSe
     }
 }
 
-/// Throws SceneError for facts and studies that there are not.
-void check_names(const Calibration& calibration, const FactSuite& suite) {
-  std::vector<std::string> faults;
-  for (const std::string& id : calibration.search.leave_out) {
-    const auto& facts = suite.book.facts;
-    if (std::none_of(facts.begin(), facts.end(), [&](const Fact& fact) { return fact.id == id; }))
-      faults.push_back("search.leave_out: " + id + ": must be the id of a fact in " + calibration.facts_file);
+/// What is wrong with one value that a set would put into scenes of these studies; empty if nothing is.
+std::string fault_of_setting(const std::string& key, const std::string& formula, const Table& parameters,
+                             const std::vector<const Study*>& studies) {
+  try {
+    YAML::Node value;
+    if (!formula.empty()) value = number_text(evaluate_formula(formula, parameters).front());
+    for (const Study* study : studies) {
+      YAML::Node tree = YAML::Clone(*study->scene);
+      set_value(tree, key, value, "");
+    }
+  } catch (const FormulaError& error) {
+    return error.what();
+  } catch (const SceneError& refusal) {
+    return refusal.faults().front();
   }
-  const auto check = [&](const std::string& path, const CalibrationSettings& settings) {
-    for (const auto& [study, own] : settings)
-      if (study != "all" && suite.studies.count(study) == 0)
-        faults.push_back(path + "." + study + ": must be `all` or a study of " + calibration.facts_file);
-  };
-  check("settings", calibration.settings);
-  for (const CalibrationReading& reading : calibration.readings) check("readings.settings", reading.settings);
-  if (!faults.empty()) throw SceneError(calibration.source, faults);
+  return "";
+}
+
+/// Adds what is wrong with the settings of a section, the values being those of the start.
+void check_settings(const std::string& section, const CalibrationSettings& settings, const Table& parameters,
+                    const Calibration& calibration, const FactSuite& suite, std::vector<std::string>& faults) {
+  for (const auto& [name, own] : settings) {
+    const std::string path = section + "." + name;
+    std::vector<const Study*> studies;
+    for (const auto& [study, content] : suite.studies)
+      if (name == "all" || name == study) studies.push_back(&content);
+    if (name != "all" && studies.empty())
+      faults.push_back(path + ": must be `all` or a study of " + calibration.facts_file);
+    for (const auto& [key, formula] : own) {
+      const std::string fault = fault_of_setting(key, formula, parameters, studies);
+      if (!fault.empty()) faults.push_back(path + "." + key + ": " + fault);
+    }
+  }
+}
+
+Table table_of(const Calibration& calibration, const std::vector<double>& values) {
+  Table parameters;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    parameters.names.push_back(calibration.parameters[i].name);
+    parameters.columns.push_back({values[i]});
+  }
+  return parameters;
+}
+
+/// Throws SceneError for a study all of whose trials are refused with the values that the reading starts with.
+void refuse_without_scenes(const Calibration& calibration, const CalibrationReading& reading, const FactSuite& suite) {
+  FactRunOptions options;
+  options.settings = settings_of(calibration, reading, reading.start);
+  for (const auto& [name, study] : studies_to_run(suite, options)) {
+    try {
+      refuse_without_scenes(study);
+    } catch (const SceneError& refusal) {
+      std::vector<std::string> faults;
+      for (const std::string& fault : refusal.faults())
+        faults.push_back("reading " + reading.name + ", at its start: study " + name + ": " + fault);
+      throw SceneError(calibration.source, faults);
+    }
+  }
 }
 
 /// Calls work(0) ... work(count - 1), of which so many at a time. Throws what one of them has thrown, the first by
@@ -101,11 +145,7 @@ double CalibrationParameter::share_of(double value) const {
 
 FactSettings settings_of(const Calibration& calibration, const CalibrationReading& reading,
                          const std::vector<double>& values) {
-  Table parameters;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    parameters.names.push_back(calibration.parameters[i].name);
-    parameters.columns.push_back({values[i]});
-  }
+  const Table parameters = table_of(calibration, values);
   FactSettings settings;
   append(calibration.settings, parameters, settings);
   append(reading.settings, parameters, settings);
@@ -124,13 +164,32 @@ std::string fingerprint(const Calibration& calibration, const FindScene& find_sc
   return fingerprint(text);
 }
 
+void check_calibration(const Calibration& calibration, const FactSuite& suite) {
+  std::vector<std::string> faults;
+  for (const std::string& id : calibration.search.leave_out) {
+    const auto& facts = suite.book.facts;
+    if (std::none_of(facts.begin(), facts.end(), [&](const Fact& fact) { return fact.id == id; }))
+      faults.push_back("search.leave_out: " + id + ": must be the id of a fact in " + calibration.facts_file);
+  }
+  const auto check = [&](const std::string& section, const CalibrationSettings& settings, const Table& parameters) {
+    check_settings(section, settings, parameters, calibration, suite, faults);
+  };
+  check("settings", calibration.settings, table_of(calibration, calibration.readings.front().start));
+  for (std::size_t i = 0; i < calibration.readings.size(); ++i) {
+    const CalibrationReading& reading = calibration.readings[i];
+    check("readings." + std::to_string(i) + ".settings", reading.settings, table_of(calibration, reading.start));
+  }
+  if (!faults.empty()) throw SceneError(calibration.source, faults);
+  for (const CalibrationReading& reading : calibration.readings) refuse_without_scenes(calibration, reading, suite);
+}
+
 CalibrationResult run_calibration(const Calibration& calibration, const CalibrationOptions& options) {
   const CalibrationSearch& search = calibration.search;
   const std::size_t jobs = calibration.readings.size() * search.searches;
   // one suite for each search: two threads must not read the same tree
   std::vector<FactSuite> suites;
   for (std::size_t i = 0; i < jobs; ++i) suites.push_back(load_fact_suite(calibration.facts_file, options.find_scene));
-  check_names(calibration, suites.front());
+  check_calibration(calibration, suites.front());
   CalibrationTally tally(options, suites.front().book.facts.size());
   std::vector<CalibrationRun> runs;
   for (std::size_t job = 0; job < jobs; ++job)

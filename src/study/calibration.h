@@ -146,6 +146,10 @@ struct CalibrationOptions {
 /// names, their scenes and `version`, that of this package. Throws SceneError as run_calibration.
 std::string fingerprint(const Calibration& calibration, const FindScene& find_scene, const std::string& version);
 
+/// Throws SceneError for facts, studies, keys and formulas that there are not, and where all trials of a study are
+/// refused with the values that a reading starts with: the search would run in vain.
+void check_calibration(const Calibration& calibration, const FactSuite& suite);
+
 /// Deterministic, whatever the threads. Throws SceneError for a facts file or study that is refused or a setting that
 /// no scene takes, FormulaError, and std::runtime_error when `go_on` ended it.
 CalibrationResult run_calibration(const Calibration& calibration, const CalibrationOptions& options);

@@ -105,6 +105,18 @@ class PlotTest(AlignTestCase):
         self.assertEqual(" ".join(lines), title)
         self.assertLess(max(map(len, lines)), 75)
 
+    def test_words_that_begin_like_options(self):
+        os.rename(self.csv, self.path("-r.csv"))
+        self.plot("--title=-x", "--", "-r.csv", "-x.svg")
+        self.assertIn("-x", self.words(self.path("-x.svg")))
+
+    def test_a_script_that_dies_is_a_failure(self):
+        os.makedirs(self.path("modules"))
+        self.write("modules/matplotlib.py", "import os\nos.abort()\n")
+        process = self.align("plot", self.csv, "x.png", environment={"PYTHONPATH": self.path("modules")})
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("exit status 134", process.stderr)
+
     def test_says_at_which_instants_the_forces_are_known(self):
         for trial, symbol, note in ((self.csv, "$t$", "peaks between rows are missing"),
                                     (self.bag, r"$\tau$", "largest since the message before")):

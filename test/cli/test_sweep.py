@@ -228,6 +228,10 @@ class RefusalTest(SweepTestCase):
         self.assertEqual(process.returncode, 1)
         self.assertRegex(process.stderr, r"^align: cannot start thread \d: ")
 
+    def test_what_is_no_file_is_in_the_way_of_the_rows(self):
+        os.mkfifo(self.path("out.csv.part"))
+        self.assert_refused(["sweep", self.study(), "--csv", "out.csv"], "out.csv.part", "in the way")
+
     def test_a_full_disk_is_told(self):
         process = self.align("sweep", self.study(), "--csv", "/dev/full")
         self.assertEqual(process.returncode, 1)

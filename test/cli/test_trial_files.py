@@ -131,6 +131,28 @@ class CsvTest(AlignTestCase):
                     self.assert_refused([command, self.scene(), option, ""], option, "empty")
 
 
+class PlaceTest(AlignTestCase):
+    def test_a_new_file_has_the_rights_of_the_old_one(self):
+        for command in (["trial", self.scene(), "--csv", "out.csv"], ["trial", self.scene(), "--bag", "out.bag"]):
+            path = self.path(command[-1])
+            open(path, "w").close()
+            os.chmod(path, 0o600)
+            self.assertEqual(self.align(*command).returncode, 0)
+            self.assertEqual(os.stat(path).st_mode & 0o777, 0o600)
+            self.assertGreater(os.path.getsize(path), 100)
+
+    def test_goes_to_where_a_link_leads_also_where_nothing_is_yet(self):
+        os.makedirs(self.path("sub"))
+        os.symlink("sub/new.csv", self.path("link.csv"))
+        os.symlink("link.csv", self.path("chain.csv"))
+        for _ in range(2):
+            self.assertEqual(self.align("trial", self.scene(), "--csv", "chain.csv").returncode, 0)
+            self.assertTrue(os.path.islink(self.path("link.csv")) and os.path.islink(self.path("chain.csv")))
+            self.assertGreater(os.path.getsize(self.path("sub/new.csv")), 100)
+        os.symlink("loop", self.path("loop"))
+        self.assert_refused(["trial", self.scene(), "--csv", "loop"], "--csv", "loop", "symbolic links")
+
+
 class TerminalTest(AlignTestCase):
     """Of a run that takes longer than the second after which the bar is drawn."""
 
@@ -229,6 +251,7 @@ class LostFileTest(AlignTestCase):
             process = self.align("trial", self.scene(), "--csv", "run.csv", preexec_fn=lambda: os.umask(mask))
             self.assertEqual(process.returncode, 0, process.stderr)
             self.assertEqual(os.stat(self.path("run.csv")).st_mode & 0o777, rights)
+            os.remove(self.path("run.csv"))
 
     def test_names_the_file_that_cannot_be_made(self):
         name = "n" * 250 + ".csv"  # a name as long as there can be, and none longer

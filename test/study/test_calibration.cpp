@@ -114,6 +114,32 @@ TEST(Calibration, counts_what_it_looks_at) {
   EXPECT_GT(result.evaluations, 4u * 8u);
 }
 
+TEST(Calibration, refuses_what_would_be_searched_in_vain) {
+  const auto refusal = [](const std::string& settings) {
+    std::string text = calibration_text;
+    const std::string own = "{blow: {weight: 0.05 * 2}}";
+    text.replace(text.find(own), own.size(), settings);
+    try {
+      CalibrationFiles(text).run(1);
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto names = [&](const std::string& settings, const std::string& what) {
+    const std::string words = refusal(settings);
+    EXPECT_NE(words.find(what), std::string::npos) << settings << ": " << words;
+  };
+  EXPECT_EQ(refusal("{blow: {weight: 0.05 * 2}}"), "");
+  names("{no_study: {weight: 1}}", "readings.1.settings.no_study: must be `all` or a study");
+  names("{blow: {weight: C2}}", "readings.1.settings.blow.weight: C2");
+  names("{blow: {weight: C1 +}}", "readings.1.settings.blow.weight: C1 +");
+  names("{blow: {weight..x: 1}}", "readings.1.settings.blow.weight..x: ");
+  names("{all: {weihgt: 1}}", "reading heavier, at its start: study blow: weihgt: 1: unknown key");
+  names("{all: {weight: -1}}", "reading heavier, at its start: study blow: weight: -1");
+  names("{blow: {weight: 1/0}}", "weight: inf");
+}
+
 TEST(Calibration, looks_no_further_where_all_facts_are_met) {
   std::string text = calibration_text;
   text.replace(text.find("start: 500"), 10, "start: 10000");
@@ -328,7 +354,7 @@ TEST(CalibrationFile, names_what_is_wrong) {
                    "search.rounds.0.adapt.room: -1"));
   EXPECT_TRUE(says(refusal("own_evaluations: 20", "own_evaluations: 20, adapt: 5"), "search.rounds.0.adapt"));
   EXPECT_TRUE(says(refusal("readings:", "reading:"), "reading"));
-  EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.settings.blew: must be `all` or a study of"));
+  EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.1.settings.blew: must be `all` or a study of"));
   EXPECT_TRUE(
       says(refusal("start: {C1: 700}", "start: {C1: 5}"), "readings.1.start.C1: 5: must be from `from` to `to`"));
   EXPECT_TRUE(says(refusal("start: {C1: 700}", "start: {C2: 700}"), "readings.1.start.C2"));
