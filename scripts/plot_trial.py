@@ -8,6 +8,7 @@ usage: plot_trial.py TRIAL PICTURE [--format FORMAT] [--node NAME] [--si] [--tit
 
 import argparse
 import csv
+import math
 import os
 import sys
 
@@ -41,9 +42,12 @@ def read_csv(path):
 
 def number(text, place):
     try:
-        return float(text)
+        value = float(text)
     except (TypeError, ValueError):
+        value = math.nan
+    if not math.isfinite(value):
         raise BadTrial("%s: %s: must be a number" % (place, "nothing is there" if text is None else text))
+    return value
 
 
 def read_bag(path, node, si):

@@ -16,6 +16,7 @@
 #include "cli/output_roles.h"
 #include "cli/picture_format.h"
 #include "cli/script.h"
+#include "model/yaml_file.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -50,6 +51,7 @@ int run_plot(const PlotCommandOptions& options) {
   check_readable(options.trial);
   if (!options.node.empty() && std::filesystem::path(options.trial).extension() != ".bag")
     throw UsageError("--node: only a bag has nodes");
+  if (!is_text(options.title)) throw UsageError("--title: is not text (UTF-8)");
   refuse_overwriting({{"the trial", options.trial}}, {{"PICTURE", options.picture}});
   const InterruptGuard interrupt;
   OutputPath picture("PICTURE", options.picture);

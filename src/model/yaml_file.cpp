@@ -16,24 +16,6 @@ constexpr std::size_t most_marks = 4000;
 constexpr int most_levels = 20;
 constexpr int most_nodes = 20'000;
 
-/// UTF-8 without control characters other than tabs and line ends.
-bool is_text(const std::string& bytes) {
-  std::size_t continuation_bytes = 0;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (continuation_bytes > 0) {
-      if ((byte & 0xc0) != 0x80) return false;
-      --continuation_bytes;
-    } else if (byte < 0x20 || byte == 0x7f) {
-      if (c != '\t' && c != '\n' && c != '\r') return false;
-    } else if (byte >= 0x80) {
-      if (byte < 0xc2 || byte > 0xf4) return false;
-      continuation_bytes = byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
-    }
-  }
-  return continuation_bytes == 0;
-}
-
 /// Upper bound of the depth to which yaml-cpp recurses: the marks that can open a level. (Its own guard is as late as
 /// 0.7.)
 std::size_t count_marks(const std::string& text) {
@@ -85,6 +67,23 @@ class DocumentCounter : public YAML::EventHandler {
 };
 
 }  // namespace
+
+bool is_text(const std::string& bytes) {
+  std::size_t continuation_bytes = 0;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (continuation_bytes > 0) {
+      if ((byte & 0xc0) != 0x80) return false;
+      --continuation_bytes;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      if (c != '\t' && c != '\n' && c != '\r') return false;
+    } else if (byte >= 0x80) {
+      if (byte < 0xc2 || byte > 0xf4) return false;
+      continuation_bytes = byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
+    }
+  }
+  return continuation_bytes == 0;
+}
 
 YAML::Node parse_yaml(const std::string& text, const std::string& source) {
   if (text.size() > most_bytes) throw SceneError(source, {"is too large: at most 64 KiB are read"});

@@ -9,6 +9,9 @@
 
 namespace vibratory_alignment {
 
+/// UTF-8 without control characters other than tabs and line ends.
+bool is_text(const std::string& bytes);
+
 /// The one document of a text. `source` is for messages. Throws SceneError when it is not text, too large, nested too
 /// deeply, empty, not YAML, or more than one document.
 YAML::Node parse_yaml(const std::string& text, const std::string& source);

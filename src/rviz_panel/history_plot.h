@@ -1,7 +1,6 @@
 // The live plot of a trial: above the misalignment, below the reactions at the slot's two edges, over simulated time.
 #pragma once
 
-
 #include <QWidget>
 
 #include "rviz_panel/history.h"

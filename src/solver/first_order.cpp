@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-
 namespace vibratory_alignment {
 namespace {
 

@@ -2,7 +2,6 @@
 // surely does not (docs/hybrid_step.md "Leaps").
 #pragma once
 
-
 #include "mechanics/contact_frame.h"
 #include "mechanics/site_rules.h"
 #include "mechanics/tilt.h"

@@ -118,15 +118,15 @@ class MethodChoice {
   bool doubted_ = false;  ///< what the present implicit step has found are no events
   bool may_pass_over_ = true;
   Attempt attempt_ = Attempt::ordinary;
-  double early_reach_ = 0.0;      ///< how long an early trial may become
-  double retried_length_ = 0.0;   ///< with which the next trial begins at most, after one was given up; 0: any
+  double early_reach_ = 0.0;     ///< how long an early trial may become
+  double retried_length_ = 0.0;  ///< with which the next trial begins at most, after one was given up; 0: any
   /// What the first step of a trial may take to pass over a ring, before a further length and with all.
   long passing_cost_ = 0, most_passing_cost_ = 0;
-  bool tried_ = false;            ///< a trial has been made
-  bool paid_ = false;             ///< an implicit step has gained
-  double resumed_length_ = 0.0;   ///< of the trial, if it goes on where implicit steps have paid; 0: it does not
-  int wait_ = 0;                  ///< series steps before that is tried again
-  int refused_ = 0;               ///< series steps before the next trial, as the last one was refused; 0: it was not
+  bool tried_ = false;           ///< a trial has been made
+  bool paid_ = false;            ///< an implicit step has gained
+  double resumed_length_ = 0.0;  ///< of the trial, if it goes on where implicit steps have paid; 0: it does not
+  int wait_ = 0;                 ///< series steps before that is tried again
+  int refused_ = 0;              ///< series steps before the next trial, as the last one was refused; 0: it was not
   /// How far the last series steps went for a cost of 1; 0: none since a ring began or an implicit step was taken.
   double last_way_ = 0.0, way_before_ = 0.0;
   double credit_ = 0.0;     ///< what implicit steps may lose

@@ -9,10 +9,7 @@
 
 namespace vibratory_alignment {
 Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
-    : simulation_(simulation),
-      system_(simulation.system()),
-      interval_(interval),
-      with_events_(with_events) {}
+    : simulation_(simulation), system_(simulation.system()), interval_(interval), with_events_(with_events) {}
 
 /// Books peaks and impulses of the current segment up to `local_time`.
 void Sampler::integrate_to(double local_time) {

@@ -110,6 +110,10 @@ class PlotTest(AlignTestCase):
         self.plot("--title=-x", "--", "-r.csv", "-x.svg")
         self.assertIn("-x", self.words(self.path("-x.svg")))
 
+    def test_refuses_titles_that_are_no_text(self):
+        for title in (b"\xff", b"a\x01b"):
+            self.assert_refused(["plot", self.csv, "x.svg", "--title", os.fsdecode(title)], "--title", "not text")
+
     def test_a_script_that_dies_is_a_failure(self):
         os.makedirs(self.path("modules"))
         self.write("modules/matplotlib.py", "import os\nos.abort()\n")
@@ -166,6 +170,9 @@ class PlotTest(AlignTestCase):
             lines = file.read().splitlines()
         without = self.write("a.csv", "\n".join(lines).replace("vy", "v_y"))
         self.assert_refused(["plot", without, picture], "a.csv", "has no column vy")
+        for word in ("banana", "nan", "inf"):
+            bad = self.write("b.csv", "\n".join(lines[:5] + [word + lines[5][lines[5].index(","):]] + lines[6:]))
+            self.assert_refused(["plot", bad, picture], "b.csv", word, "must be a number")
         wrong = self.write("b.csv", "\n".join(lines[:2] + [lines[2].replace(",", ",high", 1)]))
         self.assert_refused(["plot", wrong, picture], "b.csv", "line 3: x: high", "must be a number")
         self.assert_refused(["plot", self.write("c.csv", lines[0] + "\n"), picture], "c.csv", "no motion in it")

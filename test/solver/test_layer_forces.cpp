@@ -61,8 +61,8 @@ TEST(LayerForces, follow_their_law_to_the_tolerance_throughout_a_step) {
   }
 }
 
-// The step is chosen for T to hold to a hundredth of the tolerance at its end; at the loosest tolerances, where the poles
-// of the layer bound the steps anyway, to a tenth (docs/hybrid_step.md "Step").
+// The step is chosen for T to hold to a hundredth of the tolerance at its end; at the loosest tolerances, where the
+// poles of the layer bound the steps anyway, to a tenth (docs/hybrid_step.md "Step").
 TEST(LayerForces, follow_their_law_to_a_hundredth_of_the_tolerance_at_the_end_of_a_step) {
   for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-8}) {
     Scene scene = test::scene_of(test::plain, {"friction.regularization=0.002"});

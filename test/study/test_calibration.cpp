@@ -354,7 +354,8 @@ TEST(CalibrationFile, names_what_is_wrong) {
                    "search.rounds.0.adapt.room: -1"));
   EXPECT_TRUE(says(refusal("own_evaluations: 20", "own_evaluations: 20, adapt: 5"), "search.rounds.0.adapt"));
   EXPECT_TRUE(says(refusal("readings:", "reading:"), "reading"));
-  EXPECT_TRUE(says(refusal("{blow: {weight", "{blew: {weight"), "readings.1.settings.blew: must be `all` or a study of"));
+  EXPECT_TRUE(
+      says(refusal("{blow: {weight", "{blew: {weight"), "readings.1.settings.blew: must be `all` or a study of"));
   EXPECT_TRUE(
       says(refusal("start: {C1: 700}", "start: {C1: 5}"), "readings.1.start.C1: 5: must be from `from` to `to`"));
   EXPECT_TRUE(says(refusal("start: {C1: 700}", "start: {C2: 700}"), "readings.1.start.C2"));
