@@ -71,7 +71,8 @@ void keep_figures(FactBook& book, const std::vector<std::string>& asked) {
     if (found == book.figures.end()) {
       std::string names;
       for (const Figure& figure : book.figures) names += (names.empty() ? "" : ", ") + figure.name;
-      throw UsageError("FIGURE: " + name + ": there is no such figure; there are " + names);
+      throw UsageError("FIGURE: " + name + ": there is no such figure; " +
+                       (names.empty() ? book.source + " has none" : "there are " + names));
     }
     studies.insert(found->measure.table.study);
     if (names_kept.insert(name).second) figures.push_back(*found);

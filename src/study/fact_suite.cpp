@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include "model/scene_error.h"
 #include "study/design.h"
@@ -56,7 +57,10 @@ FactSuite load_fact_suite(const std::string& facts_file, const FindScene& find_s
   const std::filesystem::path folder = std::filesystem::path(facts_file).parent_path() / suite.book.study_folder;
   Tables columns;
   for (const std::string& name : studies_of(suite.book)) {
-    const Study study = load_study((folder / (name + ".yaml")).lexically_normal().string(), find_scene);
+    const std::string file = (folder / (name + ".yaml")).lexically_normal().string();
+    if (std::error_code ignored; !std::filesystem::exists(file, ignored))
+      throw SceneError(facts_file, {"study: " + name + ": there is no file " + file});
+    const Study study = load_study(file, find_scene);
     columns[{name, false}] = TrialTable(study).table();
     columns[{name, true}] = touch_columns(study);
     suite.studies[name] = study;
