@@ -144,7 +144,9 @@ parallel_jobs() {
   printf '%s\n' $((processors > 0 ? processors : 1))
 }
 
-# Configures and builds the given targets in $build, with the devel space in $devel, and enters that space.
+# Configures and builds the given targets in $build, with the devel space in $devel, and enters that space. What is
+# installed goes to $build/.install: in a folder of the package that is not hidden roslaunch finds each launch file once
+# more, and starts none.
 build_targets() {
   local cache="$build/CMakeCache.txt" options=("${cmake_options[@]}")
   say "Building in ${build#"$root"/}/ and ${devel#"$root"/}/ ($*; some minutes the first time)"
@@ -156,7 +158,7 @@ build_targets() {
   if [ -e "$root/build/cli11" ]; then options+=("-DCLI11_INCLUDE_DIR=$root/build/cli11"); fi
   mkdir -p "$build/logs"
   run_logged "$build/logs/configure.log" cmake -S "$root" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" \
-    -DCMAKE_INSTALL_PREFIX="$root/install" "${options[@]}"
+    -DCMAKE_INSTALL_PREFIX="$build/.install" "${options[@]}"
   local log="$build/logs/build.log"
   if ! cmake --build "$build" -j "$(parallel_jobs)" --target "$@" 2>&1 | tee "$log" | show_progress; then
     grep -A 8 -m 5 -E 'error|Error' "$log" >&2 || true
