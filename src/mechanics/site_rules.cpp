@@ -68,10 +68,10 @@ Region face_limits(const System& system, Face face, const Vec2& p) {
   return limits;
 }
 
-Region insertion_region(const System& system, double depth, bool between_walls) {
+Region insertion_region(const System& system, double depth, bool between_walls, const ContactState& contact) {
   const double l = system.slot_half_width;
   Region region;
-  region.count = between_walls ? 3 : 1;
+  region.count = between_walls && !contact.on_wall() ? 3 : 1;
   region.conditions = {{{0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}}};
   return region;
 }

@@ -35,8 +35,9 @@ bool is_called_for(const System& system, Face face);
 /// condition's face is the one through which the point then lies outside the other body.
 Region face_limits(const System& system, Face face, const Vec2& p);
 
-/// Where a lower corner is below `depth` and, if asked, between the walls.
-Region insertion_region(const System& system, double depth, bool between_walls);
+/// Where a lower corner with this contact is below `depth` and, if asked, between the walls: one that touches a wall
+/// is.
+Region insertion_region(const System& system, double depth, bool between_walls, const ContactState& contact);
 
 /// Whether the scene uses the site at all.
 bool site_in_use(const System& system, Site site);

@@ -154,7 +154,7 @@ void Aligner::show_start() {
   publish_next(not_interrupted());
 }
 
-/// A trial may fail in its first step.
+/// A trial may have no start with the present settings, or fail in its first step.
 std::string Aligner::place_at_start() const {
   if (activity_ != Activity::ended) return start_fault_.empty() ? "paused at the start" : start_fault_;
   return "the trial fails at the start: " + stage_->trial.result().failure;

@@ -190,8 +190,8 @@ bool is_below(const System& system, const ContactBook& book, double depth, bool 
   if (book.placed.state.y - system.base_distance * book.placed.cos_phi > -depth) return false;
   for (const Site corner : {Site::b1, Site::b2}) {
     const Vec2 point = site_point(system, book.placed, corner);
-    const bool on_wall = book.contacts[static_cast<std::size_t>(corner)].on_wall();
-    const Region region = insertion_region(system, depth, between_walls && !on_wall);
+    const ContactState& contact = book.contacts[static_cast<std::size_t>(corner)];
+    const Region region = insertion_region(system, depth, between_walls, contact);
     for (int j = 0; j < region.count; ++j)
       if (!(region.conditions[j].value(point) > 0.0)) return false;
   }

@@ -355,8 +355,8 @@ class Search {
     Conditions conditions;
     conditions.count = 0;
     for (const Site site : {Site::b1, Site::b2}) {
-      const bool on_wall = segment_.contacts[static_cast<std::size_t>(site)].on_wall();
-      const Region region = insertion_region(system_, depth, between_walls && !on_wall);
+      const ContactState& contact = segment_.contacts[static_cast<std::size_t>(site)];
+      const Region region = insertion_region(system_, depth, between_walls, contact);
       for (int j = 0; j < region.count; ++j)
         conditions.g[conditions.count++] = condition_series(region.conditions[j], site);
     }

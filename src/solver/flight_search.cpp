@@ -177,8 +177,7 @@ class Search {
   /// Both corners have to be below `depth` and, if asked, between the walls (one that touches a wall is).
   void outcome_ahead(const FlightView& view, double depth, bool between_walls, double horizon, Nearest& nearest) const {
     const auto asked = [&](Site corner) {
-      const bool on_wall = contacts_[static_cast<std::size_t>(corner)].on_wall();
-      return insertion_region(system_, depth, between_walls && !on_wall);
+      return insertion_region(system_, depth, between_walls, contacts_[static_cast<std::size_t>(corner)]);
     };
     double gap = -INFINITY;
     for (const Site site : {Site::b1, Site::b2}) gap = std::max(gap, gap_of(asked(site), view.place(site)));

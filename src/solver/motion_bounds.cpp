@@ -114,8 +114,8 @@ bool MotionBounds::surely_stays_on(Site site, Face face) const {
 
 bool MotionBounds::surely_misses(double depth, bool between_walls) const {
   for (const Site corner : {Site::b1, Site::b2}) {
-    const bool on_wall = segment_.contacts[static_cast<std::size_t>(corner)].on_wall();
-    if (surely_outside(corner, insertion_region(system_, depth, between_walls && !on_wall), Face::none)) return true;
+    const ContactState& contact = segment_.contacts[static_cast<std::size_t>(corner)];
+    if (surely_outside(corner, insertion_region(system_, depth, between_walls, contact), Face::none)) return true;
   }
   return false;
 }

@@ -189,7 +189,6 @@ CalibrationResult run_calibration(const Calibration& calibration, const Calibrat
   // one suite for each search: two threads must not read the same tree
   std::vector<FactSuite> suites;
   for (std::size_t i = 0; i < jobs; ++i) suites.push_back(load_fact_suite(calibration.facts_file, options.find_scene));
-  check_calibration(calibration, suites.front());
   CalibrationTally tally(options, suites.front().book.facts.size());
   std::vector<CalibrationRun> runs;
   for (std::size_t job = 0; job < jobs; ++job)

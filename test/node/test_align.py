@@ -232,6 +232,13 @@ class Align(AlignerTestCase):
         self.assertTrue(self.call('start').success)
         self.assertEqual(self.client.done()[1].tau, 3.0)
 
+    def test_step_right_after_the_goal_is_taken(self):
+        for _ in range(10):
+            self.call('reset')
+            self.client.send()
+            response = self.call('step')
+            self.assertTrue(response.success, response.message)
+
     def test_reset_ends_the_goal(self):
         self.client.send(scene=scene_path('small'), time_limit=2.0)
         self.assertTrue(self.client.running())

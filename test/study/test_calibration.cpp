@@ -79,7 +79,14 @@ class CalibrationFiles {
     CalibrationOptions options;
     options.threads = threads;
     options.find_scene = [](const std::string& name) { return name; };
-    return run_calibration(load_calibration(path_), options);
+    return run_calibration(checked(), options);
+  }
+  /// Throws SceneError.
+  Calibration checked() const {
+    const Calibration calibration = load_calibration(path_);
+    check_calibration(calibration,
+                      load_fact_suite(calibration.facts_file, [](const std::string& name) { return name; }));
+    return calibration;
   }
   const std::string& path() const { return path_; }
 
@@ -112,32 +119,6 @@ TEST(Calibration, counts_what_it_looks_at) {
   // 4 searches of all ranges, 3 that go on; each judges its best set anew when the studies change
   EXPECT_LE(result.evaluations, 4u * 41u + 3u * (1u + 20u + 40u));
   EXPECT_GT(result.evaluations, 4u * 8u);
-}
-
-TEST(Calibration, refuses_what_would_be_searched_in_vain) {
-  const auto refusal = [](const std::string& settings) {
-    std::string text = calibration_text;
-    const std::string own = "{blow: {weight: 0.05 * 2}}";
-    text.replace(text.find(own), own.size(), settings);
-    try {
-      CalibrationFiles(text).run(1);
-    } catch (const SceneError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  const auto names = [&](const std::string& settings, const std::string& what) {
-    const std::string words = refusal(settings);
-    EXPECT_NE(words.find(what), std::string::npos) << settings << ": " << words;
-  };
-  EXPECT_EQ(refusal("{blow: {weight: 0.05 * 2}}"), "");
-  names("{no_study: {weight: 1}}", "readings.1.settings.no_study: must be `all` or a study");
-  names("{blow: {weight: C2}}", "readings.1.settings.blow.weight: C2");
-  names("{blow: {weight: C1 +}}", "readings.1.settings.blow.weight: C1 +");
-  names("{blow: {weight..x: 1}}", "readings.1.settings.blow.weight..x: ");
-  names("{all: {weihgt: 1}}", "reading heavier, at its start: study blow: weihgt: 1: unknown key");
-  names("{all: {weight: -1}}", "reading heavier, at its start: study blow: weight: -1");
-  names("{blow: {weight: 1/0}}", "weight: inf");
 }
 
 TEST(Calibration, looks_no_further_where_all_facts_are_met) {
@@ -323,11 +304,26 @@ std::string refusal(const std::string& from, const std::string& to) {
   std::string text = calibration_text;
   text.replace(text.find(from), from.size(), to);
   try {
-    CalibrationFiles(text).run(1);
+    CalibrationFiles(text).checked();
   } catch (const SceneError& error) {
     return error.what();
   }
   return "";
+}
+
+TEST(CalibrationCheck, refuses_what_would_be_searched_in_vain) {
+  const auto expect = [](const std::string& settings, const std::string& part) {
+    const std::string message = refusal("{blow: {weight: 0.05 * 2}}", settings);
+    EXPECT_NE(message.find(part), std::string::npos) << settings << ": " << message;
+  };
+  EXPECT_EQ(refusal("{blow: {weight: 0.05 * 2}}", "{blow: {weight: C1}}"), "");
+  expect("{no_study: {weight: 1}}", "readings.1.settings.no_study: must be `all` or a study");
+  expect("{blow: {weight: C2}}", "readings.1.settings.blow.weight: C2");
+  expect("{blow: {weight: C1 +}}", "readings.1.settings.blow.weight: C1 +");
+  expect("{blow: {weight..x: 1}}", "readings.1.settings.blow.weight..x: ");
+  expect("{all: {weihgt: 1}}", "reading heavier, at its start: study blow: weihgt: 1: unknown key");
+  expect("{all: {weight: -1}}", "reading heavier, at its start: study blow: weight: -1");
+  expect("{blow: {weight: 1/0}}", "weight: inf");
 }
 
 TEST(CalibrationFile, names_what_is_wrong) {
