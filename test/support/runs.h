@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "trial/simulation.h"
@@ -19,6 +20,20 @@ inline TrialResult run(const Scene& scene, const std::function<void(const Segmen
   while (simulation.advance())
     if (look) look(simulation.segment());
   return simulation.result();
+}
+
+/// Runs with another solver and tolerance.
+inline TrialResult run_with(Scene scene, const std::string& solver, double tolerance,
+                            std::optional<double> until = {}) {
+  scene.solver.accuracy.reset();
+  scene.solver.name = solver;
+  scene.solver.tolerance = tolerance;
+  return run(scene, {}, until);
+}
+
+/// ... to the time limit, whatever the outcome.
+inline TrialResult run_to_limit_with(const Scene& scene, const std::string& solver, double tolerance) {
+  return run_with(scene, solver, tolerance, scene.trial.time_limit);
 }
 
 struct TimedEvent {

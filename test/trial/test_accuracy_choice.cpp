@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,13 +22,6 @@ double pose_error(const State& a, const State& b) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.phi - b.phi)});
 }
 
-TrialResult run_with(Scene scene, const std::string& solver, double tolerance, std::optional<double> until = {}) {
-  scene.solver = {};
-  scene.solver.name = solver;
-  scene.solver.tolerance = tolerance;
-  return test::run(scene, {}, until);
-}
-
 /// The scene with what the loader chooses for an accuracy.
 Scene with_accuracy(Scene scene, double accuracy) {
   scene.solver = {};
@@ -47,11 +39,11 @@ INSTANTIATE_TEST_SUITE_P(scenes, ShippedAccuracy,
 /// The answer of a scene by `implicit`, up to where `event` differs by 1e-10: there the motion has amplified the last
 /// digits a million times. `central` does so without end; it has no answer in double precision from some 50 periods on.
 TrialResult known_answer(const Scene& scene) {
-  TrialResult reference = run_with(scene, "implicit", 1e-11);
+  TrialResult reference = test::run_with(scene, "implicit", 1e-11);
   while (true) {
-    const TrialResult second = run_with(scene, "event", 1e-13, reference.final_time);
+    const TrialResult second = test::run_with(scene, "event", 1e-13, reference.final_time);
     if (pose_error(second.final_state, reference.final_state) < 1e-10) return reference;
-    reference = run_with(scene, "implicit", 1e-11, 0.5 * reference.final_time);
+    reference = test::run_with(scene, "implicit", 1e-11, 0.5 * reference.final_time);
   }
 }
 
@@ -93,7 +85,7 @@ TEST(AccuracyChoice, is_kept_in_lasting_contact_on_stiff_bases) {
       scene.initial.phi.reset();
       scene.base.stiffness_x = scene.base.stiffness_y = stiffness;
       scene.base.damping_x = scene.base.damping_y = 2.0 * damping_ratio * std::sqrt(stiffness);
-      const State reference = run_with(scene, "event", 1e-12).final_state;
+      const State reference = test::run_with(scene, "event", 1e-12).final_state;
       for (const double accuracy : kAccuracies) {
         const Scene chosen = with_accuracy(scene, accuracy);
         EXPECT_EQ(chosen.solver.name, "auto");
@@ -109,9 +101,9 @@ TEST(AccuracyChoice, is_kept_wherever_the_answer_is_known) {
   int asked = 0, kept = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const Scene scene = test::random_scene(seed);
-    const TrialResult reference = run_with(scene, "event", 1e-13);
+    const TrialResult reference = test::run_with(scene, "event", 1e-13);
     ASSERT_NE(reference.outcome, Outcome::failed) << "seed " << seed << ": " << reference.failure;
-    const State second = run_with(scene, "event", 1e-12, reference.final_time).final_state;
+    const State second = test::run_with(scene, "event", 1e-12, reference.final_time).final_state;
     const double known = pose_error(second, reference.final_state);
     for (const double accuracy : kAccuracies) {
       if (known > 0.01 * accuracy) continue;
