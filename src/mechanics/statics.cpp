@@ -30,8 +30,8 @@ constexpr double kLastDigits = 1e-15;
 /// Shortest and longest way over which a height is sought: breaks farther down are of faces that hardly lean.
 constexpr double kShortestWay = 1e-12, kLongestWay = 1e9;
 
-/// How far above a break what it ends is looked at, beside the sizes that it is computed from.
-constexpr double kBesideBreak = 4e-15;
+/// How far beside a height what is there above or below it is looked at, beside the sizes that it is computed from.
+constexpr double kBeside = 4e-15;
 
 /// A contact takes its whole share of the horizontal force where its tangent is less steep than this (sine of the
 /// angle to the vertical), so that nothing jumps where that is upright.
@@ -65,6 +65,10 @@ double moment_scale(const System& system, double phi) {
          (std::abs(system.weight) + std::abs(system.start.y - system.y.anchor)) * system.slot_half_width;
 }
 
+double beside(const System& system, double x, double y) {
+  return kBeside * (std::abs(x) + std::abs(y) + system.half_width + system.base_distance);
+}
+
 /// Root of a function on [low, high] whose ends differ in sign, to roundoff.
 template <class Function>
 double root_between(const Function& f, double low, double high) {
@@ -90,12 +94,10 @@ std::optional<double> balanced_height(const System& system, double x, double phi
   const HeightBreaks breaks(system, x, phi);
   const double most_stiffness = kSiteCount * std::max(system.stiffness_x, system.stiffness_y);
   double way = std::max(load / most_stiffness, kShortestWay);
-  const double size = std::abs(x) + system.half_width + system.base_distance;
   double reached = top;  // the last break
   const auto next = [&](double y) {
     reached = breaks.below(reached);
-    const double beside = kBesideBreak * (std::abs(reached) + size);
-    if (reached > top - kLongestWay) return at(reached + std::min(beside, 0.5 * (y - reached)));
+    if (reached > top - kLongestWay) return at(reached + std::min(beside(system, x, reached), 0.5 * (y - reached)));
     way *= 2.0;
     return at(y - way);
   };
@@ -152,6 +154,7 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     double x, y, moment, drag_x, drag_y, drag_moment;
   };
   std::array<Push, kSiteCount> pushes{};
+  bool is_carried = false;
   for (int i = 0; i < kSiteCount; ++i) {
     if (!contacts[i].touching()) continue;
     const auto site = static_cast<Site>(i);
@@ -159,6 +162,7 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     const ContactKinematics k = contact_kinematics(system, state, site, contacts[i].face, p, c, s);
     const double n = stiffness_of(system, contacts[i].face, c, s) * k.depth;
     if (n <= 0.0) continue;
+    is_carried = true;
     const double t = system.friction * n * std::clamp(k.tangent.x / kSteepTangent, -1.0, 1.0);
     pushes[i] = {n * k.normal.x,  n * k.normal.y,  n * cross(k.lever, k.normal),
                  t * k.tangent.x, t * k.tangent.y, t * cross(k.lever, k.tangent)};
@@ -178,7 +182,7 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     force_y += share * sum_of(&Push::drag_y);
     moment += share * sum_of(&Push::drag_moment);
   }
-  return {force_y, moment};
+  return {force_y, moment, is_carried};
 }
 
 bool find_equilibrium(System& system, std::optional<double> pressing_force, bool free_y, bool free_phi) {
@@ -196,7 +200,12 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
     if (height) y = *height;
     return height.has_value();
   };
-  if (!free_phi) return settle_height(system.start.phi, system.start.y);
+  // at the end of a face the part may seem to touch and sink beside it to where the gripper does not press
+  const auto is_on_base = [&] {
+    const double y = system.start.y;
+    return !free_y || static_load(system, x, y - beside(system, x, y), system.start.phi).is_carried;
+  };
+  if (!free_phi) return settle_height(system.start.phi, system.start.y) && is_on_base();
 
   const auto moment = [&](double phi) {
     double y = system.start.y;
@@ -209,7 +218,8 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
   // where the touching point changes the moment jumps, and its change of sign is no equilibrium
   const auto rests_at = [&](double phi) {
     system.start.phi = phi;
-    return settle_height(phi, system.start.y) && std::abs(moment(phi)) <= kBalanced * moment_scale(system, phi);
+    return settle_height(phi, system.start.y) && is_on_base() &&
+           std::abs(moment(phi)) <= kBalanced * moment_scale(system, phi);
   };
   if (first == 0.0) return rests_at(begin);
   // towards the side to which it turns the part; the same numbers for the mirrored scene

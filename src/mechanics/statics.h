@@ -15,6 +15,7 @@ std::optional<double> touch_height(const System& system, double x, double phi);
 /// Net force and moment on the part at rest: gripper, weight and contact forces, without excitation.
 struct StaticLoad {
   double force_y = 0.0, moment = 0.0;
+  bool is_carried = false;  ///< the base pushes
 };
 
 /// Load at rest in (x, y, phi). Friction holds the horizontal force as far as it can: set-valued friction, all loaded
@@ -22,8 +23,8 @@ struct StaticLoad {
 /// no force at rest.
 StaticLoad static_load(const System& system, double x, double y, double phi);
 
-/// y and phi of the static equilibrium at system.start.x; what is given stays. With `pressing_force`, y_a follows phi
-/// as y_touch - pressing_force and is set in `system`. False when there is none.
+/// y and phi of the static equilibrium at system.start.x; what is given stays, a y that is sought is on the base. With
+/// `pressing_force`, y_a follows phi as y_touch - pressing_force and is set in `system`. False when there is none.
 bool find_equilibrium(System& system, std::optional<double> pressing_force, bool free_y, bool free_phi);
 
 }  // namespace vibratory_alignment

@@ -210,7 +210,6 @@ std::vector<Number> needed_numbers() {
   numbers.push_back([](Scene& s) { return s.initial.y ? &*s.initial.y : nullptr; });
   numbers.push_back([](Scene& s) { return s.trial.inserted_depth ? &*s.trial.inserted_depth : nullptr; });
   numbers.push_back([](Scene& s) { return &s.trial.time_limit; });
-  numbers.push_back([](Scene& s) { return &s.solver.tolerance; });
   for (const std::size_t i : {0u, 1u, 2u}) {
     numbers.push_back([i](Scene& s) { return i < s.excitations.size() ? &s.excitations[i].amplitude : nullptr; });
     numbers.push_back([i](Scene& s) { return i < s.excitations.size() ? &s.excitations[i].frequency : nullptr; });
@@ -236,7 +235,9 @@ std::vector<SceneStep> scene_steps() {
   steps.push_back(tilt_locked);
   steps.push_back(sideways_locked);
   steps.push_back(base_made_isotropic);
-  steps.push_back(set_to([](Scene& s) { return &s.solver.tolerance; }, 1e-8));
+  const Number tolerance = [](Scene& s) { return &s.solver.tolerance; };
+  steps.push_back(set_to(tolerance, 1e-8));
+  steps.push_back(rounded_to(tolerance, 1));
   const std::vector<Number> dispensable = dispensable_numbers(), needed = needed_numbers();
   for (const Number& number : dispensable) steps.push_back(set_to(number, 0.0));
   for (const Number& number : needed) steps.push_back(set_to(number, 1.0));

@@ -1,8 +1,10 @@
 // The shrinker keeps what a fault needs and takes out the rest.
 #include <gtest/gtest.h>
 
+#include "model/scene_loader.h"
 #include "random_changes.h"
 #include "random_scene.h"
+#include "scene_text.h"
 #include "shrink.h"
 
 namespace vibratory_alignment::hunt {
@@ -27,6 +29,7 @@ TEST(Shrink, keeps_the_fault_and_nothing_else) {
     EXPECT_EQ(simple.weight, 0.0);
     EXPECT_EQ(simple.friction->coefficient, 1.0);
     EXPECT_EQ(simple.contacts.edges + simple.contacts.corners + simple.contacts.walls, 1);
+    EXPECT_NO_THROW(load_scene(YAML::Load(scene_text(simple)), "simple"));  // it can be kept as a file
   }
   EXPECT_GT(shrunk, 50);
 }

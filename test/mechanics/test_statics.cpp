@@ -277,6 +277,41 @@ TEST(Equilibrium, friction_holds_the_part_in_place) {
   }
 }
 
+// Where a corner is exactly beside the base's edge, or an edge beside the end of the bottom, nothing carries: the press
+// would let the part sink past to the anchor, where all is balanced in the air.
+TEST(Equilibrium, is_not_where_a_face_ends) {
+  const std::string part = R"(
+part: {half_width: 0.5, base_distance: 0.75, inertia: 1}
+slot: {clearance: 0.25}
+gripper: {anchor: {x: 0, phi: 0}, pressing_force: 0.125}
+base: {stiffness: {y: 100}}
+contacts: [edges]
+excitation: {amplitude: 1, frequency: 1}
+initial: {x: 0.25}
+trial: {time_limit: 1}
+)";
+  for (const char* contacts : {"contacts=[edges]", "contacts=[corners]"})
+    for (const double x : {0.25, -0.25}) {
+      const auto at = [&](double place) {
+        return scene_of(part, {contacts, "initial.x=" + number_text(place), "initial.phi=0"});
+      };
+      EXPECT_THROW(make_system(at(x)), SceneError) << contacts << " " << x;
+      EXPECT_NO_THROW(make_system(at((1.0 + 1e-9) * x))) << contacts << " " << x;
+    }
+  // turned by the other corner until this one comes over the base: there the moment changes its sign at once
+  const std::string turned = R"(
+part: {half_width: 0.2383, base_distance: 0.2, inertia: 1}
+slot: {clearance: 4e-6}
+gripper: {stiffness: {}, anchor: {x: 0, phi: 0}, pressing_force: 0.07}
+base: {stiffness: {y: 1}}
+contacts: [corners]
+excitation: {amplitude: -0.4, frequency: 1}
+initial: {x: -0.4}
+trial: {time_limit: 2}
+)";
+  EXPECT_THROW(make_system(scene_of(turned)), SceneError);
+}
+
 // REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
 // x).
 TEST(Equilibrium, of_r1_is_its_closed_form) {
