@@ -255,9 +255,9 @@ class Search {
     const RegionCondition depth{frame.sign * frame.n1, frame.sign * frame.n2, frame.offset, face};
     const Series d = condition_series(depth, site);
     offer(first_fall(d, order_, segment_.duration, 0), EventKind::close, site, face);
-    // what would push: k d + h d', or with a base that recovers the part catching up with it
+    // what would push: k d + h d', or where the base is still deformed the part catching up with it
     Series g;
-    if (system_.recovery) {
+    if (recoveries_[index].deformation > 0.0) {
       g = d;
       subtract_recovery(recoveries_[index], g);
       for (int k = 0; k <= order_; ++k) g[k] = -g[k];

@@ -130,16 +130,17 @@ bool breaks_clearly(const System& system, const Segment& segment, const FoundEve
   return -left_slope * segment.duration > kClearly * most;
 }
 
-/// A contact without base damping along its normal: N starts and ends at zero depth. So does it, but for nothing, where
-/// a base that recovers does so at once.
+/// A contact without base damping along its normal: N starts and ends at zero depth.
 bool is_undamped(const System& system, const State& state, Face face) {
   const auto [c, s] = tilt_of(state.phi);
-  return system.recovery ? recovers_at_once(system, face, c, s) : damping_of(system, face, c, s) == 0.0;
+  return damping_of(system, face, c, s) == 0.0;
 }
 
 /// What the base keeps of its deformation when the contact at `site` is released.
 Recovery release_recovery(const System& system, const State& state, Site site, Face face) {
-  if (is_undamped(system, state, face)) return {};
+  if (!system.recovery) return {};
+  const auto [c, s] = tilt_of(state.phi);
+  if (recovers_at_once(system, face, c, s)) return {};
   return {contact_kinematics(system, state, site, face).depth, face};
 }
 
@@ -167,12 +168,13 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         break;
       case EventKind::reload:
         contact.phase = Phase::loaded;
-        pins.normal = system.recovery ? 0 : 1;
+        pins.normal = mode.recoveries[index].deformation > 0.0 ? 0 : 1;
         mode.recoveries[index] = {};
         break;
       case EventKind::release:
+        mode.recoveries[index] = release_recovery(system, state, site, contact.face);
         // a base that recovers leaves with the part: depth and deformation agree in value and rate
-        pins.normal = system.recovery ? 2 : 1;
+        pins.normal = mode.recoveries[index].deformation > 0.0 ? 2 : 1;
         if (is_undamped(system, state, contact.face)) {
           // N = k d: force and depth end together
           pins.face = contact.face;
@@ -180,7 +182,6 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         } else {
           contact.phase = Phase::unloaded;
           contact.slip = Slip::none;
-          if (system.recovery) mode.recoveries[index] = release_recovery(system, state, site, contact.face);
         }
         break;
       case EventKind::close:
@@ -248,7 +249,7 @@ ContactMode start_mode(const System& system, const State& start, const DriveForm
   ContactMode mode{};
   place_contacts(system, start, mode.contacts);
   for (std::size_t i = 0; i < kSiteCount; ++i)
-    if (system.recovery && mode.contacts[i].phase == Phase::unloaded)
+    if (mode.contacts[i].phase == Phase::unloaded)
       mode.recoveries[i] = release_recovery(system, start, static_cast<Site>(i), mode.contacts[i].face);
   set_friction(system, start, drives, {start, start, start}, {}, {}, false, friction, mode);
   return mode;
