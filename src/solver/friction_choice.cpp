@@ -21,6 +21,9 @@ constexpr double kProbeTolerance = 1e-3;
 /// asked again.
 constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4, 1e6};
 
+/// ... of which a limit of friction has no more than this: beyond it T of any size would be within its limit.
+constexpr double kMostLimitAllowance = 1e4;
+
 /// Error of a friction force at an event, relative to the truncation error of a step, and its bounds.
 constexpr double kLimitErrors = 1e4, kSmallestLimitError = 1e-9, kLargestLimitError = 1e-3;
 
@@ -94,14 +97,15 @@ void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, Judgeme
 }
 
 /// f N - T and f N + T must not fall below zero.
-void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double force_noise,
+void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double allowance, double force_noise,
                                     Judgement& judgement) const {
   const ContactSeries& contact = probe_.loaded[loaded];
   const auto site = static_cast<std::size_t>(contact.site);
   SitePins& pins = judgement.mode.pins[site];
   // where T is not known, one that friction cannot give is none: what slides instead has a V that is rounding
   const double limit_noise = system_.friction * noise.normal_force[loaded];
-  const double limit = limit_noise + std::min(force_noise, kMostForceNoise * limit_noise);
+  const double limit = (limit_noise + std::min(force_noise, kMostForceNoise * limit_noise)) *
+                       std::min(1.0, kMostLimitAllowance / allowance);
   const double nearly =
       system_.friction * (noise.state_normal_force[loaded] + limit_error() * std::abs(contact.normal_force[0]));
   for (const double sign : {1.0, -1.0}) {
@@ -147,7 +151,7 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
     const auto site = static_cast<std::size_t>(probe_.loaded[index].site);
     if (!decided_[site]) continue;
     if (probe_.contacts[site].slip == Slip::stick)
-      judge_sticking(i, noise, force_noise[index], judgement);
+      judge_sticking(i, noise, allowance, force_noise[index], judgement);
     else
       judge_sliding(i, noise, judgement);
   }

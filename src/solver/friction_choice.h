@@ -50,7 +50,8 @@ class FrictionChoice {
   bool decide_alone(const State& state, const DriveForms& drives, std::size_t site, ContactMode& mode);
   void judge(const State& state, const DriveForms& drives, double allowance, Judgement& judgement);
   void judge_sliding(int loaded, const SeriesNoise& noise, Judgement& judgement) const;
-  void judge_sticking(int loaded, const SeriesNoise& noise, double force_noise, Judgement& judgement) const;
+  void judge_sticking(int loaded, const SeriesNoise& noise, double allowance, double force_noise,
+                      Judgement& judgement) const;
 
   const System& system_;
   double limit_tolerance_;  ///< relative error of a friction force that an event says is at its limit
