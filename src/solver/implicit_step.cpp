@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "mechanics/contact_frame.h"
@@ -206,8 +207,9 @@ double ImplicitStep::error(double h) const {
   const StageAxes missed = missed_at_start();
   double size = equations_.size_of(equations_.filter(equations_.filter(missed)));
   if (equations_.in_layer()) {
-    const Eigen::Matrix3d filter = equations_.filter_at_end(h);
-    const Eigen::Vector3d left = filter * (filter * Eigen::Vector3d(missed[0], missed[1], missed[2]));
+    const std::optional<Eigen::Matrix3d> filter = equations_.filter_at_end(h);
+    if (!filter) return std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d left = *filter * (*filter * Eigen::Vector3d(missed[0], missed[1], missed[2]));
     size = std::max(size, equations_.size_of({left[0], left[1], left[2]}));
   }
   return h * collocation().eigenvalue[0].real() * size;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "solver/layer_coupling.h"
 #include "solver/motion_series.h"
@@ -44,9 +45,9 @@ class StageEquations {
   /// Error of the velocities that the step may make.
   double allowed(double h) const;
   /// What is left of an acceleration when what is stiff is taken out of it: at the start, and at the end of the
-  /// solution of length h.
+  /// solution of length h; none where a contact flutters there that the step does not follow (layer_flutter.h).
   StageAxes filter(const StageAxes& acceleration) const;
-  Eigen::Matrix3d filter_at_end(double h) const;
+  std::optional<Eigen::Matrix3d> filter_at_end(double h) const;
   /// True when a contact is in the tanh layer, whose stiffness is that of N and changes within a step.
   bool in_layer() const { return start_jacobian_.layer_count > 0; }
   /// Size of an acceleration or a velocity, as one of the part's points.
