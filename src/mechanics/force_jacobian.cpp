@@ -91,6 +91,7 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
   const Vector3d inverse(system.x.inverse_inertia, system.y.inverse_inertia, system.phi.inverse_inertia);
   std::array<Sticking, kSiteCount> stuck;
   int stuck_count = 0;
+  result.count = forces.count;
   for (int i = 0; i < forces.count; ++i) {
     const ContactForce& force = forces.contact[static_cast<std::size_t>(i)];
     const ContactState& contact = contacts[static_cast<std::size_t>(force.site)];
@@ -115,7 +116,8 @@ ForceJacobian force_jacobian(const System& system, const State& state, const Con
         share = std::tanh(k.slip_velocity / system.regularization);
         share_by_v = (1.0 - share) * (1.0 + share) / system.regularization;
         result.layer[static_cast<std::size_t>(result.layer_count++)] = {
-            i, inverse.cwiseProduct(g.tangent), g.slip_velocity_by_position, g.tangent.transpose()};
+            i, -f * n * share_by_v, inverse.cwiseProduct(g.tangent), g.slip_velocity_by_position,
+            g.tangent.transpose()};
         break;
       case Slip::stick: stuck[static_cast<std::size_t>(stuck_count++)] = sticking(k, g, part_face, state); break;
       case Slip::none: break;

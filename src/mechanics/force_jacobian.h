@@ -17,14 +17,16 @@ struct NormalJacobian {
 /// What friction in the tanh layer is made of, T = -f N tanh(V/eps), at one contact.
 struct LayerJacobian {
   int contact = 0;                                        ///< index in Forces::contact
+  double by_slip = 0.0;                                   ///< derivative of T by V
   Eigen::Vector3d push;                                   ///< accelerations that T = 1 causes
   Eigen::RowVector3d slip_by_position, slip_by_velocity;  ///< derivatives of V
 };
 
 /// Rows: x'', y'', phi''. The columns of a locked axis are zero.
 struct ForceJacobian {
-  Eigen::Matrix3d by_position;                    ///< by x, y, phi
-  Eigen::Matrix3d by_velocity;                    ///< by x', y', phi'
+  Eigen::Matrix3d by_position;  ///< by x, y, phi
+  Eigen::Matrix3d by_velocity;  ///< by x', y', phi'
+  int count = 0;
   std::array<NormalJacobian, kSiteCount> normal;  ///< of the contacts of Forces::contact, part of the above
   int layer_count = 0;
   std::array<LayerJacobian, kSiteCount> layer;  ///< of the contacts in the tanh layer, which are part of the above

@@ -154,7 +154,6 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     double x, y, moment, drag_x, drag_y, drag_moment;
   };
   std::array<Push, kSiteCount> pushes{};
-  bool is_carried = false;
   for (int i = 0; i < kSiteCount; ++i) {
     if (!contacts[i].touching()) continue;
     const auto site = static_cast<Site>(i);
@@ -162,7 +161,6 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     const ContactKinematics k = contact_kinematics(system, state, site, contacts[i].face, p, c, s);
     const double n = stiffness_of(system, contacts[i].face, c, s) * k.depth;
     if (n <= 0.0) continue;
-    is_carried = true;
     const double t = system.friction * n * std::clamp(k.tangent.x / kSteepTangent, -1.0, 1.0);
     pushes[i] = {n * k.normal.x,  n * k.normal.y,  n * cross(k.lever, k.normal),
                  t * k.tangent.x, t * k.tangent.y, t * cross(k.lever, k.tangent)};
@@ -173,16 +171,19 @@ StaticLoad static_load(const System& system, double x, double y, double phi) {
     for (int i = 0; i < kSiteCount; i += 2) sum += pushes[i].*of + pushes[i + 1].*of;
     return sum;
   };
-  double force_y = sum_of(&Push::y) - (y - system.y.anchor) * system.y.stiffness - system.weight;
+  double lift = sum_of(&Push::y);
+  double force_y = lift - (y - system.y.anchor) * system.y.stiffness - system.weight;
   double moment = sum_of(&Push::moment) - system.phi.stiffness * (phi - system.phi.anchor);
   const double whole = sum_of(&Push::drag_x);
   if (system.x.moves && system.regularization == 0.0 && whole > 0.0) {
     const double force_x = sum_of(&Push::x) - system.x.stiffness * (x - system.x.anchor);
     const double share = std::clamp(-force_x / whole, -1.0, 1.0);
-    force_y += share * sum_of(&Push::drag_y);
+    const double drag = share * sum_of(&Push::drag_y);
+    lift += drag;
+    force_y += drag;
     moment += share * sum_of(&Push::drag_moment);
   }
-  return {force_y, moment, is_carried};
+  return {force_y, moment, lift};
 }
 
 bool find_equilibrium(System& system, std::optional<double> pressing_force, bool free_y, bool free_phi) {
@@ -200,10 +201,11 @@ bool find_equilibrium(System& system, std::optional<double> pressing_force, bool
     if (height) y = *height;
     return height.has_value();
   };
-  // at the end of a face the part may seem to touch and sink beside it to where the gripper does not press
+  // at the end of a face the part may seem to touch, and sink beside it, along a side, to where the gripper presses no
+  // more
   const auto is_on_base = [&] {
     const double y = system.start.y;
-    return !free_y || static_load(system, x, y - beside(system, x, y), system.start.phi).is_carried;
+    return !free_y || static_load(system, x, y - beside(system, x, y), system.start.phi).lift > 0.0;
   };
   if (!free_phi) return settle_height(system.start.phi, system.start.y) && is_on_base();
 

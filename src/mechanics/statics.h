@@ -15,7 +15,7 @@ std::optional<double> touch_height(const System& system, double x, double phi);
 /// Net force and moment on the part at rest: gripper, weight and contact forces, without excitation.
 struct StaticLoad {
   double force_y = 0.0, moment = 0.0;
-  bool is_carried = false;  ///< the base pushes
+  double lift = 0.0;  ///< of force_y, what the base pushes up with
 };
 
 /// Load at rest in (x, y, phi). Friction holds the horizontal force as far as it can: set-valued friction, all loaded

@@ -80,8 +80,9 @@ SiteFate fate_free(const SiteTable& table, Site site, const Vec2& point) {
 }
 
 /// The base is left: what it keeps of its deformation.
-Recovery left_base(const System& system, const ContactPoint& contact, Face face) {
-  if (!system.recovery || contact.damping == 0.0 || !(contact.depth > 0.0)) return {};
+Recovery left_base(const System& system, const PlacedState& placed, const ContactPoint& contact, Face face) {
+  if (!system.recovery || !(contact.depth > kNoDeformation)) return {};
+  if (recovers_at_once(system, face, placed.cos_phi, placed.sin_phi)) return {};
   return {contact.depth, face};
 }
 
@@ -111,10 +112,10 @@ void follow_site(const System& system, const ContactState& before, Site site, co
   if (!fate.changed && before.phase == Phase::unloaded && recovery.deformation > 0.0) {
     // left by the part: it pushes again when the part has caught up; between the states it may have been left anew
     const bool caught = point.depth >= recovery.deformation;
-    if (caught) recovery = pushes ? Recovery{} : left_base(system, point, fate.face);
+    if (caught) recovery = pushes ? Recovery{} : left_base(system, book.placed, point, fate.face);
     pushes = pushes && caught;
   } else {
-    recovery = pushes ? Recovery{} : left_base(system, point, fate.face);
+    recovery = pushes ? Recovery{} : left_base(system, book.placed, point, fate.face);
   }
   contact.phase = pushes ? Phase::loaded : Phase::unloaded;
   const bool was_loaded = before.phase == Phase::loaded;
@@ -157,7 +158,8 @@ ContactBook open_book(const System& system, const SiteTable& table, const State&
     book.points[i] = site_point(system, book.placed, site);
     if (!contact.touching()) continue;
     book.touching[i] = contact_point(system, book.placed, site, contact.face, book.points[i]);
-    if (contact.phase == Phase::unloaded) book.recoveries[i] = left_base(system, book.touching[i], contact.face);
+    if (contact.phase == Phase::unloaded)
+      book.recoveries[i] = left_base(system, book.placed, book.touching[i], contact.face);
   }
   return book;
 }

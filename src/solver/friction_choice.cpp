@@ -21,7 +21,8 @@ constexpr double kProbeTolerance = 1e-3;
 /// asked again.
 constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4, 1e6};
 
-/// ... of which a limit of friction has no more than this: beyond it T of any size would be within its limit.
+/// ... of which rounding of N has no more than this where T is held against its limit: beyond it T of any size would be
+/// within the limit on the stiffest base.
 constexpr double kMostLimitAllowance = 1e4;
 
 /// Error of a friction force at an event, relative to the truncation error of a step, and its bounds.
@@ -103,11 +104,11 @@ void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double
   const auto site = static_cast<std::size_t>(contact.site);
   SitePins& pins = judgement.mode.pins[site];
   // where T is not known, one that friction cannot give is none: what slides instead has a V that is rounding
-  const double limit_noise = system_.friction * noise.normal_force[loaded];
-  const double limit = (limit_noise + std::min(force_noise, kMostForceNoise * limit_noise)) *
-                       std::min(1.0, kMostLimitAllowance / allowance);
-  const double nearly =
-      system_.friction * (noise.state_normal_force[loaded] + limit_error() * std::abs(contact.normal_force[0]));
+  const double capped = std::min(1.0, kMostLimitAllowance / allowance);
+  const double limit_noise = capped * system_.friction * noise.normal_force[loaded];
+  const double limit = limit_noise + std::min(capped * force_noise, kMostForceNoise * limit_noise);
+  const double nearly = system_.friction *
+                        (capped * noise.state_normal_force[loaded] + limit_error() * std::abs(contact.normal_force[0]));
   for (const double sign : {1.0, -1.0}) {
     Series guard;
     for (std::size_t k = 0; k < kOrder; ++k)

@@ -23,16 +23,13 @@ double most_negative_root(double c2, double c1, double c0) {
 
 }  // namespace
 
-bool flutters_within(double h, const ForceJacobian& jacobian, const Forces& forces, const System& system) {
-  if (forces.count != 1 || jacobian.layer_count != 1) return false;
+bool flutters_within(double h, const ForceJacobian& jacobian) {
+  if (jacobian.count != 1 || jacobian.layer_count != 1) return false;
   const NormalJacobian& normal = jacobian.normal[0];
   const LayerJacobian& layer = jacobian.layer[0];
-  const ContactForce& force = forces.contact[0];
-  const double f = system.friction, share = force.friction_ratio;
-  const double by_slip = -force.normal_force * (f - share) * (f + share) / (f * system.regularization);
   // what N and T make of the rates of N and V
-  const double p = normal.by_position.dot(normal.push), q = by_slip * normal.by_position.dot(layer.push);
-  const double r = layer.slip_by_velocity.dot(normal.push), s = by_slip * layer.slip_by_velocity.dot(layer.push);
+  const double p = normal.by_position.dot(normal.push), q = layer.by_slip * normal.by_position.dot(layer.push);
+  const double r = layer.slip_by_velocity.dot(normal.push), s = layer.by_slip * layer.slip_by_velocity.dot(layer.push);
   const double delay = normal.by_velocity.dot(normal.by_position) / normal.by_position.squaredNorm();
   const double c2 = -(delay * p + s), c0 = p * s - q * r, c1 = delay * c0 - p;
   // seen by what grows at the least rate that counts

@@ -7,7 +7,8 @@
 namespace vibratory_alignment {
 
 /// True when N and V of the only contact that the part has, which is in the tanh layer, ring with an amplitude that
-/// grows, and too fast for a step of length h. `jacobian`, `forces`: those of its start. False for several contacts.
-bool flutters_within(double h, const ForceJacobian& jacobian, const Forces& forces, const System& system);
+/// grows, and too fast for a step of length h to follow. `jacobian`: of the accelerations there. False for several
+/// contacts.
+bool flutters_within(double h, const ForceJacobian& jacobian);
 
 }  // namespace vibratory_alignment

@@ -186,9 +186,8 @@ StageAxes StageEquations::filter(const StageAxes& acceleration) const {
 }
 
 std::optional<Eigen::Matrix3d> StageEquations::filter_at_end(double h) const {
-  const Forces forces = forces_[kStages - 1];
-  const ForceJacobian there = force_jacobian(system_, end(), *contacts_, forces);
-  if (flutters_within(h, there, forces, system_)) return std::nullopt;
+  const ForceJacobian there = force_jacobian(system_, end(), *contacts_, forces_[kStages - 1]);
+  if (flutters_within(h, there)) return std::nullopt;
   const double z = h * collocation().eigenvalue[0].real();
   return Eigen::Matrix3d((Eigen::Matrix3d::Identity() - z * there.by_velocity - z * z * there.by_position).inverse());
 }
@@ -266,7 +265,7 @@ double StageEquations::correct(const Stages& residual, double h) {
 bool StageEquations::solve(double h, SolverCounts& counts, bool easily, long most_cost) {
   evaluate_drives(drives_->form.data(), drives_->direction.data(), drives_->count, h * stage_table().node, drive_);
   modes_.set(h, start_jacobian_);
-  if (modes_.passes_over_growth() || flutters_within(h, start_jacobian_, start_forces_, system_)) return false;
+  if (modes_.passes_over_growth() || flutters_within(h, start_jacobian_)) return false;
   layer_.set(modes_, h, start_jacobian_, start_forces_);
   set_rounding(h);
   guess(h);

@@ -141,7 +141,8 @@ Recovery release_recovery(const System& system, const State& state, Site site, F
   if (!system.recovery) return {};
   const auto [c, s] = tilt_of(state.phi);
   if (recovers_at_once(system, face, c, s)) return {};
-  return {contact_kinematics(system, state, site, face).depth, face};
+  const double depth = contact_kinematics(system, state, site, face).depth;
+  return depth > kNoDeformation ? Recovery{depth, face} : Recovery{};
 }
 
 }  // namespace
@@ -168,7 +169,9 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
         break;
       case EventKind::reload:
         contact.phase = Phase::loaded;
-        pins.normal = mode.recoveries[index].deformation > 0.0 ? 0 : 1;
+        // of a base that is deformed still N does not start at zero (the segment's: what is left at its end may be
+        // none)
+        pins.normal = segment.recoveries[index].deformation > 0.0 ? 0 : 1;
         mode.recoveries[index] = {};
         break;
       case EventKind::release:

@@ -277,8 +277,9 @@ TEST(Equilibrium, friction_holds_the_part_in_place) {
   }
 }
 
-// Where a corner is exactly beside the base's edge, or an edge beside the end of the bottom, nothing carries: the press
-// would let the part sink past to the anchor, where all is balanced in the air.
+// Where a corner is exactly beside the base's edge, or an edge beside the end of the bottom, nothing carries, nor does
+// the side of the part, less deep than the bottom: the press would let the part sink past to the anchor, where all is
+// balanced in the air. Farther on the base carries: N = k d is what the spring has left of the press, f0 - d.
 TEST(Equilibrium, is_not_where_a_face_ends) {
   const std::string part = R"(
 part: {half_width: 0.5, base_distance: 0.75, inertia: 1}
@@ -295,9 +296,13 @@ trial: {time_limit: 1}
       const auto at = [&](double place) {
         return scene_of(part, {contacts, "initial.x=" + number_text(place), "initial.phi=0"});
       };
-      EXPECT_THROW(make_system(at(x)), SceneError) << contacts << " " << x;
-      EXPECT_NO_THROW(make_system(at((1.0 + 1e-9) * x))) << contacts << " " << x;
+      for (const double beside : {1.0 - 1e-13, 1.0})
+        EXPECT_THROW(make_system(at(beside * x)), SceneError) << contacts << " " << x;
+      EXPECT_NEAR(make_system(at(1.1 * x)).start.y, 0.75 - 0.125 / 101.0, 1e-15) << contacts << " " << x;
     }
+  for (const double x : {0.25, -0.25})  // deeper than the side is there
+    EXPECT_THROW(make_system(scene_of(part, {"initial.x=" + number_text((1.0 + 1e-9) * x), "initial.phi=0"})),
+                 SceneError);
   // turned by the other corner until this one comes over the base: there the moment changes its sign at once
   const std::string turned = R"(
 part: {half_width: 0.2383, base_distance: 0.2, inertia: 1}

@@ -18,7 +18,7 @@
 namespace vibratory_alignment {
 namespace {
 
-// ... and cost `auto` no more steps than `implicit`.
+// Events of a long step that a short one does not have (test_implicit.cpp) cost `auto` no more steps than `implicit`.
 TEST(AutomaticChoice, finds_no_events_that_are_none_again_and_again) {
   for (const auto& [stiffness, damping_ratio] : {std::pair{1e7, 0.01}, {1e7, 0.1}, {1e8, 1.0}}) {
     const Scene scene = test::pressed(stiffness, damping_ratio);

@@ -179,7 +179,7 @@ trial: {time_limit: 1.0}
 
 // A point that has left its wall by a rounding, with a deformation that is one as well, and a part whose other edge
 // lets go of it while the first is still inside a base that has recovered at once: neither is touched on the way out,
-// as it is where a touch is deep inside.
+// so that no touch is deep inside.
 TEST(Recovery, a_point_on_its_way_out_is_not_touched_again) {
   const std::string spinning = R"(
 part: {half_width: 0.2, base_distance: 0.4, inertia: 0.04}
