@@ -148,7 +148,10 @@ double EventSolver::implicit_or_ring_step(double longest, const DriveForms& driv
       ring_watch_.settle_implicit(step < longest && implicit_->follows_base(step, drives));
       return step;
     }
-    ring_watch_.give_up_implicit();
+    if (implicit_->event_rings())
+      ring_watch_.ring();
+    else
+      ring_watch_.give_up_implicit();
   }
   const double step = series_contact_step(longest, drives);
   if (!ring_watch_.asks(step)) return step;
@@ -218,7 +221,10 @@ double EventSolver::chosen_contact_step(double longest, const DriveForms& drives
     const double step = implicit_contact_step(choice_.bounds(longest), drives);
     follows_base_ = step < longest && implicit_->follows_base(step, drives);
     if (step > 0.0) return step;
-    choice_.give_up_implicit(spent(), implicit_->given_up_at());
+    if (implicit_->event_rings())
+      choice_.leave_to_ring(spent());
+    else
+      choice_.give_up_implicit(spent(), implicit_->given_up_at());
   }
   choice_.earn();
   return series_contact_step(longest, drives);

@@ -227,6 +227,25 @@ StageAxes ImplicitStep::velocity_missed_at_start() const {
 
 double ImplicitStep::speed_missed_at_start() const { return equations_.size_of(velocity_missed_at_start()); }
 
+/// Speed of a ring of this rate that a step may pass over if it is so long, over 1/(lambda_0 rate), and may make the
+/// error `allowed`. That of a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|, of which rebounds may make much
+/// more where the step is long: it is asked for as in one of kLongRing at most.
+double ImplicitStep::most_speed_of_ring(double rate, double length, double allowed, const Segment& segment) const {
+  const double z = std::min(kLongRing, length), left = 1.0 + z * z;
+  // a rounded place is pushed back by the springs: to the speed of their ring, or of a creep, which is slower
+  const double rounding = equations_.depth_rounding(segment) * std::min(rate, natural_rate_);
+  return std::max(allowed * left * left / z, kRingOfRounding * rounding);
+}
+
+/// True when a step of the length h, the first one after an event at which no normal force jumps, passes over a ring
+/// that is too large for it: where a contact begins to slide or to stick, its velocity may be one that the base has not
+/// taken on yet.
+bool ImplicitStep::passes_over_ring_of_event(double h, const Segment& segment) const {
+  if (!restarts_ || at_start_ || h < kResolved * base_time_) return false;
+  const double rate = 1.0 / base_time_, length = h * collocation().eigenvalue[0].real() * rate;
+  return speed_missed_at_start() > most_speed_of_ring(rate, length, equations_.allowed(h), segment);
+}
+
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
 /// the missed accelerations is that amplitude, times the square of its rate, which the filter divides by; in the missed
 /// velocities it is the amplitude times its rate. What the base has not damped of that speed by the end of the step the
@@ -259,6 +278,7 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
   bool tried = false, slower_ring = false;
   // a step of this length was not good enough; for a ring it may be once that has decayed
   given_up_at_ = 0.0;
+  event_rings_ = false;
   const auto give_up = [&] {
     given_up_at_ = h;
     if (known_step_ > 0.0 && !slower_ring) known_step_ = std::min(known_step_, h);
@@ -281,6 +301,11 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
       continue;
     }
     if (at_start_ && h > base_time_ && passes_over_too_much(h)) return 0.0;
+    if (passes_over_ring_of_event(h, segment)) {
+      restarts_ = false;
+      event_rings_ = true;
+      return 0.0;
+    }
     if (over.rate > 0.0 && speed_missed_at_start() > std::max(over.speed, equations_.allowed(h))) {
       // a shorter step may follow it that still passes over the fast one
       slower_ring = true;
@@ -306,20 +331,15 @@ double ImplicitStep::longest_step(double longest, const DriveForms& drives) {
   return std::min(longest, longest_drive_step(drives));
 }
 
-/// The error of a step that passes over a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|, of which rebounds
-/// may make much more where the step is long: it is asked for as in one of kLongRing of the motion's rate at most.
 double ImplicitStep::length_over(const FastMotion& motion, double least, double longest, const DriveForms& drives,
                                  const Segment& segment) {
   double h = longest_step(longest, drives);
   if (known_step_ > 0.0) h = std::min(h, std::max(known_step_, least));
   over_ = {};
   if (h * motion.rate < kResolved) return h;
-  const double eigenvalue = collocation().eigenvalue[0].real();
-  const double z = std::min(kLongRing, h * eigenvalue * motion.rate), left = 1.0 + z * z;
-  // a rounded place is pushed back by the springs: to the speed of their ring, or of a creep, which is slower
-  const double rounding = equations_.depth_rounding(segment) * std::min(motion.rate, natural_rate_);
-  const double most_speed = std::max(equations_.allowed_from(segment, z / (eigenvalue * motion.rate)) * left * left / z,
-                                     kRingOfRounding * rounding);
+  const double per_radian = collocation().eigenvalue[0].real() * motion.rate, length = h * per_radian;
+  const double allowed = equations_.allowed_from(segment, std::min(kLongRing, length) / per_radian);
+  const double most_speed = most_speed_of_ring(motion.rate, length, allowed, segment);
   over_ = {motion.rate, most_speed};
   return motion.speed <= most_speed ? h : 0.0;
 }

@@ -40,6 +40,9 @@ class ImplicitStep {
   /// Length at which the last take() was given up; 0 where it was not, or not for its length.
   double given_up_at() const { return given_up_at_; }
 
+  /// True when the last take() was given up as the event before it makes the base ring.
+  bool event_rings() const { return event_rings_; }
+
   /// What all steps so far have taken (StageEquations::cost).
   long cost() const { return equations_.cost(); }
 
@@ -96,6 +99,8 @@ class ImplicitStep {
   double speed_missed_at_start() const;
   double error(double h) const;
   bool passes_over_too_much(double h) const;
+  double most_speed_of_ring(double rate, double length, double allowed, const Segment& segment) const;
+  bool passes_over_ring_of_event(double h, const Segment& segment) const;
   double growth(double h, double ratio) const;
   void fill(double h, Segment& segment);
 
@@ -111,6 +116,7 @@ class ImplicitStep {
   double restart_step_ = 0.0;                    ///< length of the first step after the last jump
   double last_length_ = 0.0, last_ratio_ = 1.0;  ///< of the last step, and its error over the one allowed
   bool at_start_ = true;                         ///< of the trial, where a step may pass over a ring
+  bool event_rings_ = false;                     ///< the last take() was given up as the last event rings the base
   bool restarts_ = false;                        ///< the next step is such a first one
   bool taken_ = false;                           ///< the last step was taken, and the forces have not jumped since
   bool follows_ = false;                         ///< so at the start of the present step

@@ -316,6 +316,12 @@ void MethodChoice::ring() {
   cross_layer();
 }
 
+void MethodChoice::leave_to_ring(long evaluations) {
+  book_implicit(-kKind[kind_].implicit(evaluations));
+  attempt_ = Attempt::ordinary;
+  ring();
+}
+
 void MethodChoice::distrust() {
   may_pass_over_ = false;
   if (!implicit_) return;

@@ -77,6 +77,9 @@ class MethodChoice {
   /// The normal forces jump: the base rings.
   void ring();
 
+  /// An implicit step was given up as the last event makes the base ring.
+  void leave_to_ring(long evaluations);
+
   /// The present implicit step has found events that a short one does not have: once it is settled the series go.
   void doubt() { doubted_ = true; }
 
