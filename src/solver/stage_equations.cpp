@@ -49,6 +49,12 @@ Load3 drive_at_start(const DriveForms& drives) {
   return load;
 }
 
+/// Adds N n + T t of a contact to the sum of the contact forces: several may hold each other by far more than that.
+void add_force(const ContactKinematics& contact, double normal_force, double tangential_force, Vec2& sum) {
+  sum.x += normal_force * contact.normal.x + tangential_force * contact.tangent.x;
+  sum.y += normal_force * contact.normal.y + tangential_force * contact.tangent.y;
+}
+
 /// Positions and velocities of one axis at the stages from its accelerations. Returns the changes of the velocities.
 VIBRATORY_ALIGNMENT_INLINE Octet place(double h, double q0, double v0, const Octet& acceleration, Octet& q, Octet& v) {
   const StageTable& table = stage_table();
@@ -74,6 +80,13 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
   ++counts.rhs_evaluations;
   ++cost_;
   start_jacobian_ = force_jacobian(system_, start, contacts, start_forces_);
+  start_push_ = {};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(start_forces_.count); ++i) {
+    const ContactForce& force = start_forces_.contact[i];
+    const Face face = contacts[static_cast<std::size_t>(force.site)].face;
+    add_force(contact_kinematics(system_, start, force.site, face), force.normal_force, force.tangential_force,
+              start_push_);
+  }
   forces_before_ = follows ? forces_[kStages - 1] : start_forces_;
 }
 
@@ -155,20 +168,18 @@ double StageEquations::place_stages(double h) {
   return change;
 }
 
-/// Speed of the part during the step, and what the contact forces alone would make of it: the measure of errors.
+/// Speed of the part during the step, and what the contact forces together would make of it: the measure of errors.
 double StageEquations::speed_scale(double h) const {
-  double push = 0.0;
-  for (int i = 0; i < start_forces_.count; ++i) push += std::abs(start_forces_.contact[i].normal_force);
   double most = 0.0;
   run_widely([&]() VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
     most = largest(sizes_of({stages_.vx, stages_.vy, stages_.omega}));
   });
-  return std::max(most, size_of({start_.vx, start_.vy, start_.omega})) + speed_of_push(push, h);
+  return std::max(most, size_of({start_.vx, start_.vy, start_.omega})) + speed_of_push(start_push_, h);
 }
 
 /// What a force makes of the part's speed in the time h.
-double StageEquations::speed_of_push(double push, double h) const {
-  return h * push * std::max(system_.x.inverse_inertia, system_.y.inverse_inertia);
+double StageEquations::speed_of_push(const Vec2& push, double h) const {
+  return h * std::hypot(push.x, push.y) * std::max(system_.x.inverse_inertia, system_.y.inverse_inertia);
 }
 
 /// Coordinates are exact to kRounding of this.
@@ -208,8 +219,13 @@ double StageEquations::allowed(double h) const {
 }
 
 double StageEquations::allowed_from(const Segment& segment, double h) const {
-  double push = 0.0;
-  for (int i = 0; i < segment.loaded_count; ++i) push += std::abs(segment.loaded[i].normal_force[0]);
+  Vec2 push;
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    const ContactSeries& force = segment.loaded[i];
+    const Face face = segment.contacts[static_cast<std::size_t>(force.site)].face;
+    add_force(contact_kinematics(system_, segment.begin, force.site, face), force.normal_force[0],
+              force.tangential_force[0], push);
+  }
   return tolerance_ * (size_of({segment.vx[0], segment.vy[0], segment.omega[0]}) + speed_of_push(push, h));
 }
 

@@ -72,7 +72,7 @@ class StageEquations {
   double place_stages(double h);
   double correct(const Stages& residual, double h);
   double speed_scale(double h) const;
-  double speed_of_push(double push, double h) const;
+  double speed_of_push(const Vec2& push, double h) const;
   double size_of_place(double x, double y) const;
   void set_rounding(double h);
   Octet sizes_of(const Stages& acceleration) const;
@@ -85,6 +85,7 @@ class StageEquations {
   State start_;
   Load3 start_drive_;
   Forces start_forces_, forces_before_;
+  Vec2 start_push_;  ///< sum of the contact forces at the start
   ForceJacobian start_jacobian_;
   StateOctet stages_{};
   LoadOctet drive_{};

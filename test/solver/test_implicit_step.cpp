@@ -196,5 +196,32 @@ TEST(ImplicitStep, takes_for_rounding_what_springs_make_of_it) {
   EXPECT_EQ(length_over(kFast, kDigits * place * kFast), 0.0);
 }
 
+// What may be left out is measured by what the contact forces together make of the part: two walls that hold it between
+// them with a million times the press add nothing to that, one alone does.
+TEST(ImplicitStep, walls_that_hold_each_other_allow_no_larger_errors) {
+  constexpr double kPress = 3.0, kBetweenWalls = 1e6 * kPress, kRate = 1e3;
+  const System system = resting(0.0, {"contacts=[edges, corners, walls]"});
+  const auto most_speed_passed_over = [&](double right, double left) {
+    Segment segment;
+    const auto load = [&segment](Site site, Face face, double force) {
+      segment.contacts[static_cast<std::size_t>(site)] = {Phase::loaded, face, Slip::plus};
+      ContactSeries& contact = segment.loaded[segment.loaded_count++];
+      contact.site = site;
+      contact.normal_force[0] = force;
+    };
+    load(Site::a1, Face::bottom, kPress);
+    load(Site::b1, Face::right_wall, right);
+    load(Site::b2, Face::left_wall, left);
+    ImplicitStep step(system, 1e-6);
+    double speed = 1e9;
+    while (step.length_over({kRate, speed}, 0.0, 1.0, kNoDrives, segment) == 0.0) speed *= 0.5;
+    return speed;
+  };
+  const double by_press = most_speed_passed_over(0.0, 0.0);
+  EXPECT_EQ(most_speed_passed_over(kBetweenWalls, kBetweenWalls), by_press);
+  EXPECT_GT(most_speed_passed_over(kBetweenWalls, 0.0), 1e5 * by_press);
+  EXPECT_GT(most_speed_passed_over(0.0, kBetweenWalls), 1e5 * by_press);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
