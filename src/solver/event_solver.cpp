@@ -349,7 +349,9 @@ void EventSolver::take_step(double longest, bool contact) {
     step = series_step(system_, segment_, point_tolerance);
   }
   go_along(step, longest, point_tolerance, contact);
-  if (!implicit_now_ || (implicit_->keeps_contacts(segment_, mode_.pins) && !implicit_->leaves_ring_of_start())) return;
+  if (!implicit_now_ || (implicit_->keeps_contacts(segment_, mode_.pins) && !implicit_->leaves_ring_of_start() &&
+                         !implicit_->leaves_ring_of_event(segment_)))
+    return;
   leave_implicit_step();
   go_along(series_contact_step(longest, forms_), longest, point_tolerance, contact);
 }
@@ -387,17 +389,18 @@ void EventSolver::go_along(double step, double longest, double point_tolerance, 
 /// series of the points turn with the part; those of the other edge and the corners follow from these.
 double EventSolver::bounded_step(double step, double longest, double point_tolerance, bool contact) {
   step = std::min({step, longest, direction_step(step, point_tolerance)});
-  if (implicit_now_ && step < implicit_length_) {
-    const double shorter = shorten_implicit_step(step);
-    if (shorter > 0.0) step = shorter;
-  }
-  if (!contact && system_.contacts.edges)
-    for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
-      step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
   if (system_.recovery)
     for (const Recovery& recovery : mode_.recoveries)
       if (recovery.deformation > 0.0)
         step = std::min(step, recovery_step(system_, segment_, recovery, point_tolerance));
+  if (implicit_now_ && step < implicit_length_) {
+    const double shorter = shorten_implicit_step(step);
+    if (shorter > 0.0) step = shorter;
+    implicit_->go_on_from(step);
+  }
+  if (!contact && system_.contacts.edges)
+    for (const Site edge : {Site::a1, Site::a2})  // both: the mirror image steps alike
+      step = std::min(step, pair_step(series_.point(edge, segment_), segment_.order, point_tolerance));
   return step;
 }
 

@@ -183,7 +183,7 @@ ImplicitStep::ImplicitStep(const System& system, double tolerance)
       most_passed_over_(kPassedOver * tolerance * (system.half_width + system.base_distance)) {}
 
 void ImplicitStep::restart(bool base_rings) {
-  restarts_ = !base_rings;
+  restarts_ = after_event_ = !base_rings;
   taken_ = false;
   if (base_rings)
     follow_base();
@@ -227,23 +227,34 @@ StageAxes ImplicitStep::velocity_missed_at_start() const {
 
 double ImplicitStep::speed_missed_at_start() const { return equations_.size_of(velocity_missed_at_start()); }
 
-/// Speed of a ring of this rate that a step may pass over if it is so long, over 1/(lambda_0 rate), and may make the
-/// error `allowed`. That of a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|, of which rebounds may make much
-/// more where the step is long: it is asked for as in one of kLongRing at most.
-double ImplicitStep::most_speed_of_ring(double rate, double length, double allowed, const Segment& segment) const {
-  const double z = std::min(kLongRing, length), left = 1.0 + z * z;
+/// Of the speed missed at the start, that of what is stiff: the filter leaves what the step follows.
+double ImplicitStep::stiff_speed_missed_at_start() const {
+  const StageAxes missed = velocity_missed_at_start(), followed = equations_.filter(missed);
+  return equations_.size_of({missed[0] - followed[0], missed[1] - followed[1], missed[2] - followed[2]});
+}
+
+/// Speed of a ring of this rate that a step may pass over, z = h lambda_0 rate, at most kLongRing, and `allowed` the
+/// error of a step with that z. The error by a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|; where the step
+/// is longer rebounds may make much more of it.
+double ImplicitStep::most_speed_of_ring(double rate, double z, double allowed, const Segment& segment) const {
+  const double left = 1.0 + z * z;
   // a rounded place is pushed back by the springs: to the speed of their ring, or of a creep, which is slower
   const double rounding = equations_.depth_rounding(segment) * std::min(rate, natural_rate_);
   return std::max(allowed * left * left / z, kRingOfRounding * rounding);
 }
 
-/// True when a step of the length h, the first one after an event at which no normal force jumps, passes over a ring
-/// that is too large for it: where a contact begins to slide or to stick, its velocity may be one that the base has not
-/// taken on yet.
+/// True when a step of the length h begins at an event at which no normal force jumps, and passes over a ring that is
+/// too large for it: where a contact begins to slide or to stick, its velocity may be one that the base has not taken
+/// on yet.
 bool ImplicitStep::passes_over_ring_of_event(double h, const Segment& segment) const {
-  if (!restarts_ || at_start_ || h < kResolved * base_time_) return false;
-  const double rate = 1.0 / base_time_, length = h * collocation().eigenvalue[0].real() * rate;
-  return speed_missed_at_start() > most_speed_of_ring(rate, length, equations_.allowed(h), segment);
+  if (!after_event_ || follows_ || at_start_ || h < kResolved * base_time_) return false;
+  const double per_radian = collocation().eigenvalue[0].real() / base_time_, z = std::min(kLongRing, h * per_radian);
+  const double allowed = equations_.allowed_at_start(z / per_radian);
+  return stiff_speed_missed_at_start() > most_speed_of_ring(1.0 / base_time_, z, allowed, segment);
+}
+
+bool ImplicitStep::leaves_ring_of_event(const Segment& segment) const {
+  return passes_over_ring_of_event(length_, segment);
 }
 
 /// True when a step of the length h passes over a motion whose amplitude is more than may be left out. What is stiff in
@@ -255,6 +266,10 @@ bool ImplicitStep::passes_over_too_much(double h) const {
   if (length * length * equations_.size_of(equations_.filter(missed_at_start())) > most_passed_over_) return true;
   const double time = std::max(slow_base_time_, flight_time_ * std::exp(-h * ring_decay_));
   return time * speed_missed_at_start() > most_passed_over_;
+}
+
+void ImplicitStep::go_on_from(double length) {
+  known_step_ = next_step_ = std::min(next_step_, kMostGrowth * length);
 }
 
 bool ImplicitStep::leaves_ring_of_start() const {
@@ -301,11 +316,8 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
       continue;
     }
     if (at_start_ && h > base_time_ && passes_over_too_much(h)) return 0.0;
-    if (passes_over_ring_of_event(h, segment)) {
-      restarts_ = false;
-      event_rings_ = true;
-      return 0.0;
-    }
+    event_rings_ = passes_over_ring_of_event(h, segment);
+    if (event_rings_) return 0.0;
     if (over.rate > 0.0 && speed_missed_at_start() > std::max(over.speed, equations_.allowed(h))) {
       // a shorter step may follow it that still passes over the fast one
       slower_ring = true;
@@ -337,9 +349,9 @@ double ImplicitStep::length_over(const FastMotion& motion, double least, double 
   if (known_step_ > 0.0) h = std::min(h, std::max(known_step_, least));
   over_ = {};
   if (h * motion.rate < kResolved) return h;
-  const double per_radian = collocation().eigenvalue[0].real() * motion.rate, length = h * per_radian;
-  const double allowed = equations_.allowed_from(segment, std::min(kLongRing, length) / per_radian);
-  const double most_speed = most_speed_of_ring(motion.rate, length, allowed, segment);
+  const double per_radian = collocation().eigenvalue[0].real() * motion.rate, z = std::min(kLongRing, h * per_radian);
+  const double allowed = equations_.allowed_from(segment, z / per_radian);
+  const double most_speed = most_speed_of_ring(motion.rate, z, allowed, segment);
   over_ = {motion.rate, most_speed};
   return motion.speed <= most_speed ? h : 0.0;
 }

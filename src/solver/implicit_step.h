@@ -66,6 +66,10 @@ class ImplicitStep {
   /// True when a step of this length is so short for the base alone, in which it then sees every ring.
   bool follows_base(double step, const DriveForms& drives) const;
 
+  /// Of the last step only this length is gone: what it passes over beyond that is not over, and the next one may be
+  /// longer than that as it may be after any step.
+  void go_on_from(double length);
+
   /// Length that the next step is tried with first.
   void suggest(double step) { next_step_ = step; }
 
@@ -85,8 +89,12 @@ class ImplicitStep {
   /// base has damped what it passes over.
   bool leaves_ring_of_start() const;
 
+  /// True when the last step begins at an event, and as short as another one has made it, passes over a ring of the
+  /// base that is too large for it.
+  bool leaves_ring_of_event(const Segment& segment) const;
+
   /// The motion does not go on from the end of the last step.
-  void forget() { taken_ = false; }
+  void forget() { taken_ = after_event_ = false; }
 
   /// The state at the end of the last step.
   State end() const { return equations_.end(); }
@@ -97,9 +105,10 @@ class ImplicitStep {
   StageAxes missed_at_start() const;
   StageAxes velocity_missed_at_start() const;
   double speed_missed_at_start() const;
+  double stiff_speed_missed_at_start() const;
   double error(double h) const;
   bool passes_over_too_much(double h) const;
-  double most_speed_of_ring(double rate, double length, double allowed, const Segment& segment) const;
+  double most_speed_of_ring(double rate, double z, double allowed, const Segment& segment) const;
   bool passes_over_ring_of_event(double h, const Segment& segment) const;
   double growth(double h, double ratio) const;
   void fill(double h, Segment& segment);
@@ -116,8 +125,9 @@ class ImplicitStep {
   double restart_step_ = 0.0;                    ///< length of the first step after the last jump
   double last_length_ = 0.0, last_ratio_ = 1.0;  ///< of the last step, and its error over the one allowed
   bool at_start_ = true;                         ///< of the trial, where a step may pass over a ring
-  bool event_rings_ = false;                     ///< the last take() was given up as the last event rings the base
   bool restarts_ = false;                        ///< the next step is such a first one
+  bool after_event_ = false;                     ///< ... right at a jump or event at which no normal force jumps
+  bool event_rings_ = false;                     ///< the last take() was given up as that makes the base ring
   bool taken_ = false;                           ///< the last step was taken, and the forces have not jumped since
   bool follows_ = false;                         ///< so at the start of the present step
 };

@@ -81,11 +81,13 @@ void StageEquations::begin(const State& start, const DriveForms& drives, const C
   ++cost_;
   start_jacobian_ = force_jacobian(system_, start, contacts, start_forces_);
   start_push_ = {};
+  start_pushes_ = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(start_forces_.count); ++i) {
     const ContactForce& force = start_forces_.contact[i];
     const Face face = contacts[static_cast<std::size_t>(force.site)].face;
     add_force(contact_kinematics(system_, start, force.site, face), force.normal_force, force.tangential_force,
               start_push_);
+    start_pushes_ += std::abs(force.normal_force) + std::abs(force.tangential_force);
   }
   forces_before_ = follows ? forces_[kStages - 1] : start_forces_;
 }
@@ -152,6 +154,10 @@ void StageEquations::set_rounding(double h) {
   }
   add(start_jacobian_.by_position, 2, std::abs(start_.phi));
   add(start_jacobian_.by_velocity, 2, std::abs(start_.omega));
+  // forces that hold each other are rounded as well, and leave nothing else in the Jacobian
+  const double of_forces = kRounding * speed_of_push({start_pushes_, start_pushes_}, h);
+  noise_ += of_forces;
+  rounding_ += of_forces;
 }
 
 /// States of the stages from their accelerations. Returns the largest change of a velocity.
@@ -177,9 +183,9 @@ double StageEquations::speed_scale(double h) const {
   return std::max(most, size_of({start_.vx, start_.vy, start_.omega})) + speed_of_push(start_push_, h);
 }
 
-/// What a force makes of the part's speed in the time h.
+/// What a force makes of the part's speed in the time h, along the axes that are free.
 double StageEquations::speed_of_push(const Vec2& push, double h) const {
-  return h * std::hypot(push.x, push.y) * std::max(system_.x.inverse_inertia, system_.y.inverse_inertia);
+  return h * (std::abs(push.x) * system_.x.inverse_inertia + std::abs(push.y) * system_.y.inverse_inertia);
 }
 
 /// Coordinates are exact to kRounding of this.
@@ -218,12 +224,17 @@ double StageEquations::allowed(double h) const {
   return std::max(std::min(tolerance_ * speed_scale(h), layer), rounding_);
 }
 
+double StageEquations::allowed_at_start(double h) const {
+  return tolerance_ * (size_of({start_.vx, start_.vy, start_.omega}) + speed_of_push(start_push_, h));
+}
+
 double StageEquations::allowed_from(const Segment& segment, double h) const {
   Vec2 push;
   for (int i = 0; i < segment.loaded_count; ++i) {
     const ContactSeries& force = segment.loaded[i];
-    const Face face = segment.contacts[static_cast<std::size_t>(force.site)].face;
-    add_force(contact_kinematics(system_, segment.begin, force.site, face), force.normal_force[0],
+    const ContactState& contact = segment.contacts[static_cast<std::size_t>(force.site)];
+    if (contact.phase != Phase::loaded) continue;
+    add_force(contact_kinematics(system_, segment.begin, force.site, contact.face), force.normal_force[0],
               force.tangential_force[0], push);
   }
   return tolerance_ * (size_of({segment.vx[0], segment.vy[0], segment.omega[0]}) + speed_of_push(push, h));

@@ -53,6 +53,9 @@ class StageEquations {
   /// Size of an acceleration or a velocity, as one of the part's points.
   double size_of(const StageAxes& acceleration) const;
 
+  /// The same of a step of another length, as far as the start tells.
+  double allowed_at_start(double h) const;
+
   /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the
   /// depths there, of those of its contacts that are loaded.
   double allowed_from(const Segment& segment, double h) const;
@@ -85,7 +88,8 @@ class StageEquations {
   State start_;
   Load3 start_drive_;
   Forces start_forces_, forces_before_;
-  Vec2 start_push_;  ///< sum of the contact forces at the start
+  Vec2 start_push_;            ///< sum of the contact forces at the start
+  double start_pushes_ = 0.0;  ///< and of their sizes
   ForceJacobian start_jacobian_;
   StateOctet stages_{};
   LoadOctet drive_{};
