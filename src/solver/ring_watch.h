@@ -11,7 +11,7 @@ class RingWatch {
   /// True when the next step in contact is one of the series.
   bool series_follow() const { return series_follow_; }
 
-  /// The normal forces jump: the base rings.
+  /// The normal forces jump, or velocities have to: the base rings.
   void ring();
 
   /// Bounds of the implicit step that is due, of at most `longest`.
