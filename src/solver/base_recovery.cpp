@@ -60,12 +60,14 @@ bool recovers_evenly(const System& system, Face face) {
 Series deformation_series(const System& system, const Segment& segment, const Recovery& recovery) {
   Series u{};
   u[0] = recovery.deformation;
-  if (recovers_evenly(system, recovery.face)) {
-    const double rate = rate_at_start(system, segment, recovery.face);
-    for (int k = 0; k < segment.order; ++k) u[k + 1] = -rate * kInverse[k + 1] * u[k];
-  } else {
-    const Series rate = rate_series(system, segment, recovery.face);
-    for (int k = 0; k < segment.order; ++k) u[k + 1] = -kInverse[k + 1] * product_term(rate, u, k);
+  const bool evenly = recovers_evenly(system, recovery.face);
+  const double even_rate = evenly ? rate_at_start(system, segment, recovery.face) : 0.0;
+  const Series rate = evenly ? Series{} : rate_series(system, segment, recovery.face);
+  for (int k = 0; k < segment.order; ++k) {
+    const double next = -kInverse[k + 1] * (evenly ? even_rate * u[k] : product_term(rate, u, k));
+    // from where it might overflow on it is, in a step of 1/rate at most, less than the last digit of the deformation
+    if (!(std::abs(next) < kNearOverflow)) break;
+    u[k + 1] = next;
   }
   return u;
 }

@@ -32,7 +32,8 @@ RelaxationBounds relaxation_bounds(const System& system, Face face);
 /// True when k/h of `face` is the same however the part turns.
 bool recovers_evenly(const System& system, Face face);
 
-/// The series of u from the segment's start on, to the order of the segment, whose cos and sin of phi are known.
+/// The series of u from the segment's start on, to the order of the segment, whose cos and sin of phi are known; at
+/// rates so high that their powers might overflow to a lower one.
 Series deformation_series(const System& system, const Segment& segment, const Recovery& recovery);
 
 /// How u goes on in a segment that starts with `recovery`: u(t) = u(0) exp(-integral of k/h from 0 to t). The rate of a

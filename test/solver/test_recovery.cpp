@@ -343,5 +343,28 @@ TEST(Recovery, closes_the_ledger) {
   }
 }
 
+/// A part whose side presses on the edge a1: along the side of the tilted part the base has k/h = 6e9, elsewhere less.
+constexpr char kFastFace[] = R"(
+part: {half_width: 1, base_distance: 1}
+slot: {clearance: 0.003, depth: 1}
+gripper: {stiffness: {x: 0}, damping: {x: 0, y: 0, phi: 0}, anchor: {x: 0, phi: 0}, pressing_force: 1}
+base: {stiffness: {x: 1.0e+3, y: 1}, damping: {x: 0, y: 2}}
+contacts: [edges, walls]
+excitation: [{amplitude: 0, frequency: 1}]
+initial: {x: 0.09, y: 0.2, phi: 0.0003, vx: 0, vy: 0, omega: 0}
+trial: {time_limit: 0.04, aligned_depth: 0}
+solver: {tolerance: 1.0e-10}
+)";
+
+// A deformation may recover within a step of any order, at a rate whose powers overflow. The part that has left it goes
+// on as if the base had kept none.
+TEST(Recovery, powers_of_a_fast_recovery_do_not_overflow) {
+  const TrialResult with = test::run(test::scene_of(kFastFace, {"base.recovery=true"}));
+  const TrialResult without = test::run(test::scene_of(kFastFace));
+  ASSERT_EQ(with.outcome, Outcome::time_limit) << with.failure;
+  EXPECT_LT(with.final_state.vx, -3.0);
+  EXPECT_LT(test::distance(with.final_state, without.final_state), 1e-12);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment
