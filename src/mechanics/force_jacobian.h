@@ -26,8 +26,8 @@ struct LayerJacobian {
 struct ForceJacobian {
   Eigen::Matrix3d by_position;  ///< by x, y, phi
   Eigen::Matrix3d by_velocity;  ///< by x', y', phi'
-  int count = 0;
-  std::array<NormalJacobian, kSiteCount> normal;  ///< of the contacts of Forces::contact, part of the above
+  int count = 0;                ///< of contacts
+  std::array<NormalJacobian, kSiteCount> normal;  ///< of those of Forces::contact, part of the above
   int layer_count = 0;
   std::array<LayerJacobian, kSiteCount> layer;  ///< of the contacts in the tanh layer, which are part of the above
 };

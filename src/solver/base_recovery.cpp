@@ -35,6 +35,11 @@ bool recovers_at_once(const System& system, Face face, double cos_phi, double si
   return damping == 0.0 || damping * kFastestRecovery < stiffness_of(system, face, cos_phi, sin_phi);
 }
 
+Recovery left_behind(const System& system, double deformation, Face face, double cos_phi, double sin_phi) {
+  if (!(deformation > kNoDeformation) || recovers_at_once(system, face, cos_phi, sin_phi)) return {};
+  return {deformation, face};
+}
+
 RelaxationRate relaxation_rate(const System& system, Face face, double cos_phi, double sin_phi) {
   const double k = stiffness_of(system, face, cos_phi, sin_phi), h = damping_of(system, face, cos_phi, sin_phi);
   const double rate = k / h;

@@ -17,6 +17,10 @@ inline constexpr double kNoDeformation = 1e-18;
 /// True for a base that recovers at once under `face` at the tilt given: undamped, or faster than anything to be seen.
 bool recovers_at_once(const System& system, Face face, double cos_phi, double sin_phi);
 
+/// What a base that recovers keeps of a deformation under `face` that nothing holds any more: nothing where it recovers
+/// at once, or of what is none.
+Recovery left_behind(const System& system, double deformation, Face face, double cos_phi, double sin_phi);
+
 /// k/h of a face at a tilt, 1/time, and its derivative by phi.
 struct RelaxationRate {
   double value, slope;

@@ -81,9 +81,8 @@ SiteFate fate_free(const SiteTable& table, Site site, const Vec2& point) {
 
 /// The base is left: what it keeps of its deformation.
 Recovery left_base(const System& system, const PlacedState& placed, const ContactPoint& contact, Face face) {
-  if (!system.recovery || !(contact.depth > kNoDeformation)) return {};
-  if (recovers_at_once(system, face, placed.cos_phi, placed.sin_phi)) return {};
-  return {contact.depth, face};
+  if (!system.recovery) return {};
+  return left_behind(system, contact.depth, face, placed.cos_phi, placed.sin_phi);
 }
 
 /// One site at the end of a step; its point and recovery are known.

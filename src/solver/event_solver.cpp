@@ -133,9 +133,8 @@ void recover(const System& system, const Segment& segment, Recoveries& recoverie
   const Tilt tilt = tilt_of(segment.end.phi);
   for (Recovery& recovery : recoveries) {
     if (recovery.deformation == 0.0) continue;
-    recovery.deformation = Relaxation(system, segment, recovery).deformation_at(segment.duration);
-    const bool at_once = recovers_at_once(system, recovery.face, tilt.cos, tilt.sin);
-    if (at_once || recovery.deformation < kNoDeformation) recovery = {};
+    const double left = Relaxation(system, segment, recovery).deformation_at(segment.duration);
+    recovery = left_behind(system, left, recovery.face, tilt.cos, tilt.sin);
   }
 }
 

@@ -44,6 +44,8 @@ class StageEquations {
 
   /// Error of the velocities that the step may make.
   double allowed(double h) const;
+  /// The same for a step of any length h, as far as the start tells.
+  double allowed_at_start(double h) const;
   /// What is left of an acceleration when what is stiff is taken out of it: at the start, and at the end of the
   /// solution of length h; none where a contact flutters there that the step does not follow (layer_flutter.h).
   StageAxes filter(const StageAxes& acceleration) const;
@@ -52,9 +54,6 @@ class StageEquations {
   bool in_layer() const { return start_jacobian_.layer_count > 0; }
   /// Size of an acceleration or a velocity, as one of the part's points.
   double size_of(const StageAxes& acceleration) const;
-
-  /// The same of a step of another length, as far as the start tells.
-  double allowed_at_start(double h) const;
 
   /// Error of the velocities that a step of length h from the start of this segment may make, and rounding of the
   /// depths there, of those of its contacts that are loaded.
@@ -89,7 +88,7 @@ class StageEquations {
   Load3 start_drive_;
   Forces start_forces_, forces_before_;
   Vec2 start_push_;            ///< sum of the contact forces at the start
-  double start_pushes_ = 0.0;  ///< and of their sizes
+  double start_pushes_ = 0.0;  ///< sum of the sizes of all N and T there
   ForceJacobian start_jacobian_;
   StateOctet stages_{};
   LoadOctet drive_{};

@@ -140,9 +140,7 @@ bool is_undamped(const System& system, const State& state, Face face) {
 Recovery release_recovery(const System& system, const State& state, Site site, Face face) {
   if (!system.recovery) return {};
   const auto [c, s] = tilt_of(state.phi);
-  if (recovers_at_once(system, face, c, s)) return {};
-  const double depth = contact_kinematics(system, state, site, face).depth;
-  return depth > kNoDeformation ? Recovery{depth, face} : Recovery{};
+  return left_behind(system, contact_kinematics(system, state, site, face).depth, face, c, s);
 }
 
 }  // namespace
