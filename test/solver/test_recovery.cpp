@@ -352,7 +352,7 @@ base: {stiffness: {x: 1.0e+3, y: 1}, damping: {x: 0, y: 2}}
 contacts: [edges, walls]
 excitation: [{amplitude: 0, frequency: 1}]
 initial: {x: 0.09, y: 0.2, phi: 0.0003, vx: 0, vy: 0, omega: 0}
-trial: {time_limit: 0.04, aligned_depth: 0}
+trial: {time_limit: 0.4, aligned_depth: 0}
 solver: {tolerance: 1.0e-10}
 )";
 
@@ -362,7 +362,7 @@ TEST(Recovery, powers_of_a_fast_recovery_do_not_overflow) {
   const TrialResult with = test::run(test::scene_of(kFastFace, {"base.recovery=true"}));
   const TrialResult without = test::run(test::scene_of(kFastFace));
   ASSERT_EQ(with.outcome, Outcome::time_limit) << with.failure;
-  EXPECT_LT(with.final_state.vx, -3.0);
+  EXPECT_GT(std::abs(with.final_state.vx), 3.0);  // thrown off by both edges
   EXPECT_LT(test::distance(with.final_state, without.final_state), 1e-12);
 }
 
