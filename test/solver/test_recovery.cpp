@@ -362,7 +362,7 @@ TEST(Recovery, powers_of_a_fast_recovery_do_not_overflow) {
   const TrialResult with = test::run(test::scene_of(kFastFace, {"base.recovery=true"}));
   const TrialResult without = test::run(test::scene_of(kFastFace));
   ASSERT_EQ(with.outcome, Outcome::time_limit) << with.failure;
-  EXPECT_GT(std::abs(with.final_state.vx), 3.0);  // thrown off by both edges
+  EXPECT_GT(std::abs(with.final_state.vx), 3.0);  // thrown off, and back
   EXPECT_LT(test::distance(with.final_state, without.final_state), 1e-12);
 }
 
