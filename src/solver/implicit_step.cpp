@@ -34,6 +34,10 @@ constexpr double kLongRing = 3.0, kRingOfRounding = 10.0;
 /// and after.
 constexpr double kMostOverForce = 1.0;
 
+/// ... of one from the start of the trial that the base has not damped by the end of the step: it goes on, and dry
+/// friction that holds or slides later has it in N.
+constexpr double kMostLastingOverForce = 1e-2;
+
 /// Where a step would pass over more than it may, a shorter one is tried with this share of its length, which still
 /// passes over the fast motion: it is so many times as long as that motion's rate asks for.
 constexpr double kShorter = 0.2, kFarOver = 25.0;
@@ -50,6 +54,10 @@ constexpr double kNegligible = 1e-2;
 /// Amplitude of what a trial's first step may pass over, and how far its speed may lead once the part is released, as a
 /// multiple of its tolerance, in lengths of the part.
 constexpr double kPassedOver = 100.0;
+
+/// Largest |u prod_j (1 - u/c_j)| in 0 <= u <= 1: what a missed speed of one makes of the places between the nodes c_j of
+/// a step of one.
+constexpr double kMostBetweenNodes = 0.12;
 
 /// Of a chirp h is that of (f + |rate| h) h = kLongestDrive.
 double longest_drive_step(const DriveForms& drives) {
@@ -315,7 +323,14 @@ double ImplicitStep::take(const State& start, const DriveForms& drives, const St
       h *= std::min(0.9, factor);
       continue;
     }
-    if (at_start_ && h > base_time_ && passes_over_too_much(h)) return 0.0;
+    if (at_start_ && h > base_time_) {
+      if (passes_over_too_much(h)) return 0.0;
+      const double between_nodes = kMostBetweenNodes * h * speed_missed_at_start();
+      if (between_nodes > most_passed_over_) {
+        h *= std::max(kLeastGrowth, kSafety * most_passed_over_ / between_nodes);
+        continue;
+      }
+    }
     event_rings_ = passes_over_ring_of_event(h, segment);
     if (event_rings_) return 0.0;
     if (over.rate > 0.0 && speed_missed_at_start() > std::max(over.speed, equations_.allowed(h))) {
@@ -360,18 +375,27 @@ bool ImplicitStep::keeps_contacts(const Segment& segment, const Pins& pins) cons
   if (follows_) return true;
   const Forces& state = equations_.start_forces();
   const StageAxes missed = velocity_missed_at_start();
+  const bool is_dry = system_.friction > 0.0 && system_.regularization == 0.0;
+  const double lasts = at_start_ && is_dry && length_ > base_time_ ? std::exp(-length_ * ring_decay_) : 0.0;
+  const double most = kMostOverForce + (kMostLastingOverForce - kMostOverForce) * lasts;
   for (std::size_t i = 0; i < static_cast<std::size_t>(segment.loaded_count); ++i) {
     const ContactSeries& contact = segment.loaded[i];
     if (pins[static_cast<std::size_t>(contact.site)].normal > 0) continue;  // N starts from zero
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
-    const double of_state = state.contact[i].normal_force, of_step = contact.normal_force[0];
+    // in the first step of all the nodes alone tell: the polynomial may begin at the state, with the ring in it
+    const auto begins_at = [&](const Series& force, const Octet& at_nodes) {
+      return at_start_ ? weighted_sum(stage_table().at_start, at_nodes) : force[0];
+    };
+    const ContactForceOctet& at_nodes = equations_.forces().contact[i];
+    const double of_state = state.contact[i].normal_force;
+    const double of_step = begins_at(contact.normal_force, at_nodes.normal_force);
     const double of_speed = spring_force_of(system_, equations_.start(), contact.site, face, missed);
     const double ring = std::hypot(of_state - of_step, of_speed);
-    if (!(ring <= kMostOverForce * std::min(of_state, of_step))) return false;
+    if (!(ring <= most * std::min(of_state, of_step))) return false;
     // later on the series have followed what was large
     if (!at_start_ || slip_of(segment, contact) != Slip::stick) continue;
-    const double held = std::abs(contact.tangential_force[0]);
-    const double most_held = held + std::abs(state.contact[i].tangential_force - contact.tangential_force[0]);
+    const double held = begins_at(contact.tangential_force, at_nodes.tangential_force);
+    const double most_held = std::abs(held) + std::abs(state.contact[i].tangential_force - held);
     if (most_held > system_.friction * (of_step - ring)) return false;
   }
   return true;

@@ -2,6 +2,7 @@
 // series.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../support/hard_scene.h"
@@ -91,6 +92,31 @@ TEST(ImplicitRings, passes_over_a_ring_at_the_start_below_its_tolerance) {
   constexpr double kPeriods = kTime * 1e3 / 6.283;
   EXPECT_LT(test::run_to_limit_with(scene, "implicit", 1e-4).counts.steps, 20);
   EXPECT_GT(test::run_to_limit_with(scene, "implicit", 1e-9).counts.steps, 0.5 * kPeriods);
+}
+
+// A part that starts at its balance with a speed V rings by V/omega there, within the tolerance: so it does between the
+// nodes of its first steps as well, whose polynomials begin with V.
+TEST(ImplicitRings, places_between_the_nodes_keep_the_tolerance_at_the_start) {
+  constexpr double kPress = 2.0, kStiffness = 1e8, kSpeed = 2e-5, kTolerance = 1e-7;
+  Scene scene = test::scene_of(test::ball, {"gripper={pressing_force: 2.0}", "trial.time_limit=5"});
+  scene.excitations.clear();
+  test::set_base(scene, kStiffness, 0.5);
+  const double balance = scene.part.base_distance - kPress / kStiffness;
+  scene.initial.y = balance;
+  scene.initial.vy = kSpeed;
+  scene.solver.tolerance = kTolerance;
+  for (const char* solver : {"implicit", "auto"}) {
+    scene.solver.name = solver;
+    double farthest = 0.0;
+    long steps = 0;
+    test::run(scene, [&](const Segment& g) {
+      for (int i = 1; i <= 40; ++i)
+        farthest = std::max(farthest, std::abs(state_at(g, g.duration * i / 40.0).y - balance));
+      ++steps;
+    });
+    EXPECT_LT(farthest, kTolerance * (scene.part.half_width + scene.part.base_distance)) << solver;
+    EXPECT_LT(steps, 20) << solver;
+  }
 }
 
 // N swings between 1 - s and 1 + s times the press. Friction that holds at the one may not at the other: a ring is
