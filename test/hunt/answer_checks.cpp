@@ -110,6 +110,8 @@ double difference(const System& system, const Trace& a, const Trace& b, Compared
   double largest = 0.0;
   for (std::size_t i = 0; i < std::min(a.touches.size(), b.touches.size()); ++i)
     largest = std::max(largest, between(a.touches[i], b.touches[i]));
+  for (std::size_t i = 0; i < std::min(a.places.size(), b.places.size()); ++i)
+    largest = std::max(largest, difference_of_places(system, a.places[i], b.places[i]));
   if (refused || !a.all_touches) return largest;
   if (compared == Compared::places_but_settling && (has_settled(a) || has_settled(b))) return largest;
   if (a.result.outcome != b.result.outcome) return INFINITY;
@@ -121,6 +123,7 @@ double difference(const System& system, const Trace& a, const Trace& b, Compared
 
 Trace mirrored(Trace trace) {
   for (Landmark& touch : trace.touches) touch.state = test::mirrored(touch.state);
+  for (State& place : trace.places) place = test::mirrored(place);
   trace.result.final_state = test::mirrored(trace.result.final_state);
   std::swap(trace.result.impacts[0], trace.result.impacts[1]);
   std::swap(trace.result.impacts[2], trace.result.impacts[3]);

@@ -35,8 +35,8 @@ std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b);
 /// limit says nothing then.
 enum class Compared { places_but_settling, places, places_and_rates };
 
-/// Largest difference of two traces over touches and end, relative to the sizes of the motion and its fastest speed;
-/// infinite where one of them touches or ends otherwise.
+/// Largest difference of two traces over touches, places at instants before the last of these, and end, relative to the
+/// sizes of the motion and its fastest speed; infinite where one of them touches or ends otherwise.
 double difference(const System& system, const Trace& a, const Trace& b, Compared compared);
 
 /// The trace of the mirrored scene as it should look.

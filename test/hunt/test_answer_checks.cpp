@@ -90,6 +90,13 @@ TEST_F(DoctoredAnswer, that_leans_to_one_side) {
   EXPECT_GT(difference(system_, trace_, mirrored(trace_), Compared::places), 1e-3);
 }
 
+TEST_F(DoctoredAnswer, that_is_elsewhere_between_its_touches) {
+  Trace other = trace_;
+  ASSERT_FALSE(other.places.empty());
+  other.places.back().phi += 1e-6;
+  EXPECT_GT(difference(system_, trace_, other, Compared::places), 1e-8);
+}
+
 // Where steps are others, a settled motion ends later or sooner; in its mirror image it does not.
 TEST_F(DoctoredAnswer, that_settles_at_another_time) {
   trace_.all_touches = true;

@@ -75,6 +75,15 @@ class Hops {
   std::array<Hop, kSiteCount> hops_{};
 };
 
+/// The states at the instants that lie in a segment.
+void note_places(double time_limit, const Segment& segment, std::vector<State>& places) {
+  while (places.size() < kInstants) {
+    const double time = time_limit * static_cast<double>(places.size() + 1) / (kInstants + 1);
+    if (time > segment.end_time()) return;
+    places.push_back(state_at(segment, std::clamp(time - segment.start.value(), 0.0, segment.duration)));
+  }
+}
+
 /// FNV-1a.
 class Digest {
  public:
@@ -122,6 +131,7 @@ Trace run_trial(const Trial& trial, bool checked, double uncertain) {
     way_since_touch += fastest * segment.duration;
     const Digits digits = {scene.solver.tolerance, trace.fastest, takes_implicit_steps(scene)};
     if (checked && !trace.fault) trace.fault = check_segment(system, digits, segment);
+    if (trace.all_touches) note_places(scene.trial.time_limit, segment, trace.places);
     if (!ends_with_touch(segment)) continue;
     // a point that an implicit step has left beside its face may touch several times at once, a part that comes level
     // touches with two points in the order of rounding, and the ring that such steps leave makes or spares low hops

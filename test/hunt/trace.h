@@ -1,5 +1,5 @@
-// What is kept of one trial so that answers can be compared: the instants at which something was touched, and the
-// result.
+// What is kept of one trial so that answers can be compared: the instants at which something was touched, where the part
+// was at others, and the result.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,7 @@ struct Landmark {
 struct Trace {
   std::vector<Landmark> touches;  ///< the first ones, at most kMaxTouches
   bool all_touches = true;        ///< `touches` are all there were
+  std::vector<State> places;      ///< at kInstants equal parts of the time limit, as long as touches are kept
   TrialResult result;
   double energy_noise = 0.0;   ///< what the ledger cannot know
   double fastest = 0.0;        ///< largest speed of the part's points: what the digits of its rates are those of
@@ -33,6 +34,8 @@ double speed_of(const System& system, const State& state);
 
 /// Later touches are not compared: each impact can make a difference ten times larger.
 constexpr std::size_t kMaxTouches = 5;
+
+constexpr std::size_t kInstants = 16;
 
 /// True with the solvers whose steps leave errors up to the tolerance.
 bool takes_implicit_steps(const Scene& scene);
