@@ -55,8 +55,8 @@ constexpr double kNegligible = 1e-2;
 /// multiple of its tolerance, in lengths of the part.
 constexpr double kPassedOver = 100.0;
 
-/// Largest |u prod_j (1 - u/c_j)| in 0 <= u <= 1: what a missed speed of one makes of the places between the nodes c_j of
-/// a step of one.
+/// Largest |u prod_j (1 - u/c_j)| in 0 <= u <= 1: what a missed speed of one makes of the places between the nodes c_j
+/// of a step of one.
 constexpr double kMostBetweenNodes = 0.12;
 
 /// Of a chirp h is that of (f + |rate| h) h = kLongestDrive.
@@ -242,8 +242,8 @@ double ImplicitStep::stiff_speed_missed_at_start() const {
 }
 
 /// Speed of a ring of this rate that a step may pass over, z = h lambda_0 rate, at most kLongRing, and `allowed` the
-/// error of a step with that z. The error by a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|; where the step
-/// is longer rebounds may make much more of it.
+/// error of a step with that z. The error by a motion c exp(lambda t) is h lambda_0 |filter^2(lambda c)|; where the
+/// step is longer rebounds may make much more of it.
 double ImplicitStep::most_speed_of_ring(double rate, double z, double allowed, const Segment& segment) const {
   const double left = 1.0 + z * z;
   // a rounded place is pushed back by the springs: to the speed of their ring, or of a creep, which is slower
@@ -276,9 +276,7 @@ bool ImplicitStep::passes_over_too_much(double h) const {
   return time * speed_missed_at_start() > most_passed_over_;
 }
 
-void ImplicitStep::go_on_from(double length) {
-  known_step_ = next_step_ = std::min(next_step_, kMostGrowth * length);
-}
+void ImplicitStep::go_on_from(double length) { known_step_ = next_step_ = std::min(next_step_, kMostGrowth * length); }
 
 bool ImplicitStep::leaves_ring_of_start() const {
   return at_start_ && length_ > base_time_ && passes_over_too_much(length_);

@@ -1,5 +1,5 @@
-// What is kept of one trial so that answers can be compared: the instants at which something was touched, where the part
-// was at others, and the result.
+// What is kept of one trial so that answers can be compared: the instants at which something was touched, where the
+// part was at others, and the result.
 #pragma once
 
 #include <cstdint>

@@ -29,12 +29,15 @@ DriveForms pull(DriveForm form, double limit) {
   return drives;
 }
 
+System block() {
+  return make_system(test::scene_of(test::ball, {"gripper={stiffness: {x: 0.0}, anchor: {x: 0.2}, pressing_force: 2.0}",
+                                                 "base={stiffness: {y: 100.0}, damping: {y: 2.0}}",
+                                                 "friction={coefficient: 0.2}", "initial={x: 0.2}"}));
+}
+
 /// The law of friction and the pins after the block has stuck for `duration` under `before`, and a slip event.
 ContactMode after_stick(const DriveForm& before, double duration, const DriveForm& after, bool kink) {
-  const System system =
-      make_system(test::scene_of(test::ball, {"gripper={stiffness: {x: 0.0}, anchor: {x: 0.2}, pressing_force: 2.0}",
-                                              "base={stiffness: {y: 100.0}, damping: {y: 2.0}}",
-                                              "friction={coefficient: 0.2}", "initial={x: 0.2}"}));
+  const System system = block();
   Segment segment;
   segment.contacts[kSite] = {Phase::loaded, Face::bottom, Slip::stick};
   segment.begin = system.start;
@@ -82,6 +85,24 @@ TEST(Transitions, a_kink_at_the_limit_decides_by_what_comes_after_it) {
     const ContactMode mode = after_stick(ramp(0.75 * sign, 2.5 * sign), 0.1, ramp(sign, -sign), true);
     EXPECT_EQ(mode.contacts[kSite].slip, Slip::stick) << sign;
   }
+}
+
+// Friction ends it at once, and the pull decides; a speed that takes a while to stop goes on.
+TEST(Transitions, what_is_left_of_a_motion_that_has_died_out_has_no_direction) {
+  const System system = block();
+  const double limit = system.friction * 2.0;
+  FrictionChoice friction(system, 1e-9);
+  const auto slip_of_start = [&](double speed, double share) {
+    State start = system.start;
+    start.vx = speed;
+    return start_mode(system, start, pull(ramp(share, 0.0), limit), friction).contacts[kSite].slip;
+  };
+  for (const double speed : {1e-40, -1e-40, 0.0}) {
+    EXPECT_EQ(slip_of_start(speed, 0.5), Slip::stick) << speed;
+    EXPECT_EQ(slip_of_start(speed, 2.0), Slip::plus) << speed;
+    EXPECT_EQ(slip_of_start(speed, -2.0), Slip::minus) << speed;
+  }
+  EXPECT_EQ(slip_of_start(1e-12, -2.0), Slip::plus);
 }
 
 }  // namespace
