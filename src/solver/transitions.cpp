@@ -14,8 +14,9 @@ namespace {
 /// A sliding velocity this small, relative to the speeds it is made of, is zero.
 constexpr double kZeroSlip = 1e-14;
 
-/// A time in which nothing comes to pass: what friction stops within it is at rest.
-constexpr double kNoTime = 1e-20;
+/// A time in which nothing comes to pass: what friction stops within it is at rest. Faster than the second nothing is
+/// stopped in it.
+constexpr double kNoTime = 1e-20, kFaint = 1e-12;
 
 /// Motions whose rates a sliding velocity may be the rest of.
 using Motions = std::array<State, 3>;
@@ -31,7 +32,8 @@ double slip_scale(const ContactKinematics& k, const Motions& motions) {
 
 /// True for a sliding velocity so small that friction ends it at once, of a part whose motion has all but died out: its
 /// sign is rounding whatever it is the rest of.
-bool stops_at_once(const System& system, const State& state, const ContactKinematics& k, Face face) {
+[[gnu::noinline, gnu::cold]] bool stops_at_once(const System& system, const State& state, const ContactKinematics& k,
+                                                Face face) {
   const auto [c, s] = tilt_of(state.phi);
   const double normal_force =
       stiffness_of(system, face, c, s) * k.depth + damping_of(system, face, c, s) * k.depth_rate;
@@ -108,7 +110,7 @@ void set_friction(const System& system, const State& state, const DriveForms& dr
       continue;
     }
     const bool zero = std::abs(v) <= kZeroSlip * slip_scale(kinematics, motions) ||
-                      stops_at_once(system, state, kinematics, contact.face);
+                      (std::abs(v) <= kFaint && stops_at_once(system, state, kinematics, contact.face));
     at_rest[i] = !slides[i] && (zero_slip[i] || contact.slip == Slip::stick || zero);
     // what slides in name only is at its limit; what has just been found to start sliding is not
     const bool starts = mode.pins[i].slip > 0 && mode.pins[i].slip <= MotionSeries::kHeldPowers;
