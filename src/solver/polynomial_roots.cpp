@@ -152,9 +152,10 @@ int deflate(Series& g, int order, int zeros) {
 /// Conditions on a part of [0, 1].
 using Forms = std::array<BernsteinForm, kMaxConditions>;
 
-/// Time for which a condition that holds at the start has done so, by its rate there; one that does not rise has held
-/// before.
+/// Time for which a condition that holds at the start has done so, by its rate there: none where it starts with zero,
+/// however slowly it rises; one that does not rise has held before.
 double held_for(const BernsteinForm& form) {
+  if (form.at_start() == 0.0) return 0.0;
   const double rise = form.degree > 0 ? form.degree * (form.b[1] - form.b[0]) : 0.0;
   return rise > 0.0 ? form.at_start() / rise : std::numeric_limits<double>::infinity();
 }

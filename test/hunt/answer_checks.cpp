@@ -46,11 +46,11 @@ double difference_of_rates(const System& s, double fastest, const State& p, cons
   return rate / (fastest + 1e-3);
 }
 
+}  // namespace
+
 bool has_settled(const Trace& trace) {
   return trace.result.outcome == Outcome::stalled || trace.result.outcome == Outcome::jammed;
 }
-
-}  // namespace
 
 std::string refusal(const TrialResult& result) {
   if (result.outcome != Outcome::failed) return {};
@@ -62,7 +62,7 @@ std::string refusal(const TrialResult& result) {
 std::optional<Fault> check_ending(const TrialResult& r, Range range) {
   if (r.outcome == Outcome::running) return Fault{Invariant::ends, "no outcome"};
   const std::string reason = refusal(r);
-  if (range == Range::ordinary && !reason.empty() && reason != "step limit") return Fault{Invariant::ends, r.failure};
+  if (range != Range::wild && !reason.empty() && reason != "step limit") return Fault{Invariant::ends, r.failure};
   return {};
 }
 

@@ -14,7 +14,7 @@ namespace vibratory_alignment::hunt {
 constexpr double kStepErrors = 100.0;
 
 /// Why the solver gave up, without time and place; empty if it did not. It says so, with a reason: that is a refusal.
-/// In scenes far beyond what is physical it may; in ordinary ones only for the step limit, which the hunt sets low.
+/// In scenes far beyond what is physical it may; in others only for the step limit, which the hunt sets low.
 std::string refusal(const TrialResult& result);
 
 /// It ended with an outcome, one that the range allows.
@@ -29,6 +29,9 @@ std::optional<Fault> check_energy(const Scene& scene, const Trace& trace);
 
 /// Two answers are the same to the last bit.
 std::optional<Fault> check_same(const TrialResult& a, const TrialResult& b);
+
+/// The trial ended as its motion had settled.
+bool has_settled(const Trace& trace);
 
 /// What is compared at touches and end besides the times. An implicit step leaves a ring of the base that is too small
 /// to see, and whose speed is not. A change restarts the watch for settling: whether that is noticed before the time

@@ -132,10 +132,11 @@ int main(int argc, char** argv) {
   app.footer(hunt::kFooter);
   app.add_option("--from", options.hunt.from, "First seed")->capture_default_str();
   app.add_option("--count", options.hunt.count, "How many scenes")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--range", options.hunt.range, "ordinary: what a gripper and a hole could be; wild: far beyond")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, Range>{{"ordinary", Range::ordinary}, {"wild", Range::wild}}))
-      ->type_name("ordinary|wild");
+  app.add_option("--range", options.hunt.range,
+                 "ordinary: what a gripper and a hole could be; wild: far beyond; round: as people write them")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Range>{{"ordinary", Range::ordinary}, {"wild", Range::wild}, {"round", Range::round}}))
+      ->type_name("ordinary|wild|round");
   app.add_option("--solver", options.hunt.solver, "Solver; all others are compared with event")
       ->check(CLI::IsMember({"event", "implicit", kImplicitAlone, "auto"}))
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dice.h"
+#include "round_scene.h"
 
 namespace vibratory_alignment::hunt {
 namespace {
@@ -157,9 +158,12 @@ void roll_trial(Dice& dice, bool wild, Scene& s) {
 
 }  // namespace
 
-const char* to_string(Range range) { return range == Range::ordinary ? "ordinary" : "wild"; }
+const char* to_string(Range range) {
+  return range == Range::ordinary ? "ordinary" : range == Range::wild ? "wild" : "round";
+}
 
 Scene random_scene(std::uint64_t seed, Range range) {
+  if (range == Range::round) return round_scene(seed);
   const bool wild = range == Range::wild;
   Dice dice(2 * seed + (wild ? 1 : 0));
   Scene s;

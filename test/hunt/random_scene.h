@@ -9,7 +9,8 @@ namespace vibratory_alignment::hunt {
 
 /// ordinary: what a gripper and a hole could be. wild: far beyond, the most extreme numbers that the loader accepts
 /// and that mean something (stiffness to 1e12, inertia from 1e-8, clearance from 1e-9, frequency to 1e4, any tilt).
-enum class Range { ordinary, wild };
+/// round: the numbers that people write (round_scene.h).
+enum class Range { ordinary, wild, round };
 
 const char* to_string(Range range);
 

@@ -46,7 +46,7 @@ std::string written(const std::string& text) {
 }
 
 TEST(RandomChanges, call_for_everything_there_is) {
-  for (const Range range : {Range::ordinary, Range::wild}) {
+  for (const Range range : {Range::ordinary, Range::wild, Range::round}) {
     int cuts_alone = 0, late = 0, presses = 0, no_press = 0, off = 0, fewer = 0, at_once = 0, tiny = 0, both = 0,
         others = 0;
     std::set<Waveform> waveforms;
@@ -223,7 +223,7 @@ changes: [{time: 2.881592628856984}]
 }
 
 TEST(TrialText, is_read_back_bit_for_bit) {
-  for (const Range range : {Range::ordinary, Range::wild})
+  for (const Range range : {Range::ordinary, Range::wild, Range::round})
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const Trial trial = random_trial(seed, range);
       const std::string text = trial_text(trial);

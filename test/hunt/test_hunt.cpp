@@ -33,7 +33,7 @@ Tally tally_of(Range range, int threads, long count, bool changes = false) {
 }
 
 TEST(Hunt, gives_the_same_bits_in_any_number_of_threads) {
-  for (const Range range : {Range::ordinary, Range::wild}) {
+  for (const Range range : {Range::ordinary, Range::wild, Range::round}) {
     const Tally alone = tally_of(range, 1, 60), together = tally_of(range, 3, 60);
     EXPECT_EQ(alone.digest, together.digest);
     EXPECT_EQ(alone.outcomes, together.outcomes);

@@ -36,7 +36,7 @@ TEST(Dice, is_fair) {
 }
 
 TEST(RandomScene, calls_for_everything_there_is) {
-  for (const Range range : {Range::ordinary, Range::wild}) {
+  for (const Range range : {Range::ordinary, Range::wild, Range::round}) {
     int recovery = 0, frictionless = 0, regularised = 0, locked_x = 0, locked_phi = 0, floor = 0, still = 0,
         at_rest = 0;
     std::set<Waveform> waveforms;
@@ -68,7 +68,7 @@ TEST(RandomScene, calls_for_everything_there_is) {
 
 // The text holds all there is to a scene: read back and written again it is the same text.
 TEST(SceneText, is_read_back_bit_for_bit) {
-  for (const Range range : {Range::ordinary, Range::wild})
+  for (const Range range : {Range::ordinary, Range::wild, Range::round})
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
       const Scene scene = random_scene(seed, range);
       const std::string text = scene_text(scene);

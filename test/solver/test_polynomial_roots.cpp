@@ -388,6 +388,23 @@ TEST(FirstEntry, inside_already_is_now) {
   EXPECT_EQ(first_entry(conditions, 1, 1.0).time, 0.0);
 }
 
+// One that starts with zero, and rises however slowly, becomes true now: not one that holds already.
+TEST(FirstEntry, from_zero_is_by_the_condition_that_starts_there) {
+  for (const int power : {1, 2, 5})
+    for (const int first : {0, 1}) {
+      Conditions conditions;
+      conditions.count = 2;
+      conditions.g[0] = conditions.g[1] = {};
+      conditions.g[static_cast<std::size_t>(first)][static_cast<std::size_t>(power)] = 1e-3;
+      Series& holds = conditions.g[static_cast<std::size_t>(1 - first)];
+      holds[0] = 0.2;
+      holds[1] = 1.0;
+      const Entry entry = first_entry(conditions, 6, 1.0);
+      EXPECT_EQ(entry.time, 0.0) << power;
+      EXPECT_EQ(entry.last, first) << power;
+    }
+}
+
 // Inside from the start, by what the step before was wrong by: through the face that was crossed last, however little
 // another condition, which is about to fail, still holds by.
 TEST(FirstEntry, inside_already_came_in_by_the_condition_that_has_held_for_the_shortest_time) {
