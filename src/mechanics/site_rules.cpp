@@ -5,6 +5,12 @@
 #include "mechanics/tilt.h"
 
 namespace vibratory_alignment {
+namespace {
+
+/// Last digits of lengths.
+constexpr double kOnWall = 1e-15;
+
+}  // namespace
 
 Region site_region(const System& system, Site site, int half) {
   const double a = system.half_width, b = system.base_distance, l = system.slot_half_width;
@@ -69,7 +75,8 @@ Region face_limits(const System& system, Face face, const Vec2& p) {
 }
 
 Region insertion_region(const System& system, double depth, bool between_walls, const ContactState& contact) {
-  const double l = system.slot_half_width;
+  // a corner on a wall's line, to the last digits, is in the slot, as one that touches the wall is
+  const double l = system.slot_half_width + kOnWall * (system.slot_half_width + system.half_width);
   Region region;
   region.count = between_walls && !contact.on_wall() ? 3 : 1;
   region.conditions = {{{0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}}};

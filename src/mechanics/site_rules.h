@@ -36,7 +36,7 @@ bool is_called_for(const System& system, Face face);
 Region face_limits(const System& system, Face face, const Vec2& p);
 
 /// Where a lower corner with this contact is below `depth` and, if asked, between the walls: one that touches a wall
-/// is.
+/// is, and one on its line to the last digits.
 Region insertion_region(const System& system, double depth, bool between_walls, const ContactState& contact);
 
 /// Whether the scene uses the site at all.

@@ -298,6 +298,15 @@ class Search {
     return any;
   }
 
+  /// True for a condition that starts on the border and stays there, to the last digits of lengths, throughout the step:
+  /// the point moves along the face, neither into the body nor off it.
+  bool stays_on_border(const Series& g, double rounding) const {
+    if (!(std::abs(g[0]) <= rounding)) return false;
+    double change = 0.0;
+    for (int k = order_; k >= 1; --k) change = (change + std::abs(g[k])) * duration_;
+    return change <= rounding;
+  }
+
   void guard_outside(Site site) {
     const auto index = static_cast<std::size_t>(site);
     const double rounding = length_rounding();
@@ -306,6 +315,7 @@ class Search {
       if (stays_outside(site, region, pins_[index].face)) continue;
       Conditions conditions;
       conditions.count = region.count;
+      bool is_along = false;
       for (int j = 0; j < region.count; ++j) {
         const Face face = region.conditions[j].face;
         conditions.g[j] = condition_series(region.conditions[j], site);
@@ -316,7 +326,9 @@ class Search {
         // of a condition that holds by no more than last digits its change decides
         const double at_start = conditions.g[j][0];
         conditions.zeros_at_start[j] = pinned || (at_start > 0.0 && at_start <= rounding) ? 1 : 0;
+        is_along = is_along || stays_on_border(conditions.g[j], rounding);
       }
+      if (is_along) continue;
       Entry entry = first_entry(conditions, order_, duration_);
       if (entry.time == 0.0 && counts_as_leaving(region, rounding, conditions))
         entry = first_entry(conditions, order_, duration_);

@@ -19,13 +19,13 @@ namespace vibratory_alignment::hunt {
 namespace {
 
 /// Scenes in which something is touched that each solver is asked for.
-constexpr int kScenes = 20;
+constexpr int kScenes = 10;
 
 /// Later touches are not compared: each can make a difference ten times larger.
 constexpr int kMostTouches = 3;
 
 /// The first step, times the fastest rate, and how many there are at most; each of the next is a quarter of the last.
-constexpr double kStep = 0.04, kSteps = 1e4;
+constexpr double kStep = 0.04, kSteps = 5e3;
 
 constexpr int kInstants = 20;
 
