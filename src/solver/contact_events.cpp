@@ -275,8 +275,12 @@ class Search {
 
   /// Zeros that N starts with. Where rounding leaves a push instead of a single one, that is what it starts with: in a
   /// stiff damper it relaxes, and makes a slope of its own at which zero would fall.
-  static int zeros_of(const Series& normal_force, int pinned) {
-    return pinned == 1 && normal_force[0] > 0.0 ? 0 : pinned;
+  int zeros_of(const Series& normal_force, int pinned) const {
+    if (pinned == 1 && normal_force[0] > 0.0) return 0;
+    if (pinned != 1) return pinned;
+    // on a base without damping what the last digits of lengths make of the powers is not where N rises or falls
+    const double stiffness = std::max(system_.stiffness_x, system_.stiffness_y);
+    return std::min(zeros_on_border(normal_force, stiffness * length_rounding()), order_);
   }
 
   /// Last digits of lengths.
@@ -298,13 +302,13 @@ class Search {
     return any;
   }
 
-  /// True for a condition that starts on the border and stays there, to the last digits of lengths, throughout the step:
-  /// the point moves along the face, neither into the body nor off it.
-  bool stays_on_border(const Series& g, double rounding) const {
-    if (!(std::abs(g[0]) <= rounding)) return false;
-    double change = 0.0;
-    for (int k = order_; k >= 1; --k) change = (change + std::abs(g[k])) * duration_;
-    return change <= rounding;
+  /// Zeros that a condition starts with on the border: its powers that are no more than last digits of lengths in the
+  /// step. More than there are powers where all are: the point moves along the face.
+  int zeros_on_border(const Series& g, double rounding) const {
+    double power = duration_;
+    int k = 1;
+    for (; k <= order_ && std::abs(g[k]) * power <= rounding; ++k) power *= duration_;
+    return k;
   }
 
   void guard_outside(Site site) {
@@ -325,8 +329,10 @@ class Search {
         const bool pinned = pins_[index].face == face && !recovering;
         // of a condition that holds by no more than last digits its change decides
         const double at_start = conditions.g[j][0];
-        conditions.zeros_at_start[j] = pinned || (at_start > 0.0 && at_start <= rounding) ? 1 : 0;
-        is_along = is_along || stays_on_border(conditions.g[j], rounding);
+        const bool on_border = at_start >= 0.0 && at_start <= rounding;
+        const int zeros = pinned ? 1 : on_border ? zeros_on_border(conditions.g[j], rounding) : 0;
+        conditions.zeros_at_start[j] = zeros;
+        is_along = is_along || zeros > order_;
       }
       if (is_along) continue;
       Entry entry = first_entry(conditions, order_, duration_);

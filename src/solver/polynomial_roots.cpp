@@ -160,10 +160,18 @@ double held_for(const BernsteinForm& form) {
   return rise > 0.0 ? form.at_start() / rise : std::numeric_limits<double>::infinity();
 }
 
-/// Of two conditions that hold at the start, whether the first became true later.
+/// Whether one condition rises more slowly than another from the zeros that both start with: its face is the nearer
+/// one.
+bool rises_slower(const Series& a, const Series& b, int order) {
+  return std::lexicographical_compare(a.begin() + 1, a.begin() + order + 1, b.begin() + 1, b.begin() + order + 1);
+}
+
+/// Of two conditions that hold at the start, whether the first became true later; of two that begin to at once, whether
+/// the first does so more slowly: its face is the nearer one from then on.
 bool holds_for_less(const BernsteinForm& a, const BernsteinForm& b) {
   const double time_a = held_for(a), time_b = held_for(b);
-  return time_a < time_b || (time_a == time_b && a.at_start() < b.at_start());
+  if (time_a != time_b) return time_a < time_b;
+  return std::lexicographical_compare(a.b.begin(), a.b.begin() + a.degree + 1, b.b.begin(), b.b.begin() + b.degree + 1);
 }
 
 /// First rise of g above zero on a part of [0, 1], on which it is `form` and starts at or below zero, or kNoRoot.
@@ -266,8 +274,12 @@ Entry first_entry(const Conditions& conditions, int order, double h) {
   if (entry.time == 0.0) {
     for (int i = 0; i < conditions.count; ++i)
       if (holds_for_less(forms[i], forms[entry.last])) entry.last = i;
+    int on_face = -1;
     for (int i = 0; i < conditions.count; ++i)
-      if (conditions.zeros_at_start[i] > 0) entry.last = i;
+      if (conditions.zeros_at_start[i] > 0 &&
+          (on_face < 0 || rises_slower(conditions.g[i], conditions.g[on_face], order)))
+        on_face = i;
+    if (on_face >= 0) entry.last = on_face;
   }
   if (entry.time != kNoRoot) entry.time *= h;
   return entry;
