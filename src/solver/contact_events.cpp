@@ -280,7 +280,8 @@ class Search {
     if (pinned != 1) return pinned;
     // on a base without damping what the last digits of lengths make of the powers is not where N rises or falls
     const double stiffness = std::max(system_.stiffness_x, system_.stiffness_y);
-    return std::min(zeros_on_border(normal_force, stiffness * length_rounding()), order_);
+    const int zeros = zeros_on_border(normal_force, stiffness * length_rounding());
+    return zeros <= order_ ? zeros : pinned;
   }
 
   /// Last digits of lengths.
