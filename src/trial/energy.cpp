@@ -20,6 +20,9 @@ constexpr double kWeights[6] = {0.2491470458134028, 0.2334925365383548, 0.203167
 /// Longest panel in radians of the flight's fastest motion: the products turn twice as fast.
 constexpr double kPanel = 2.0;
 
+/// Last digits of a place, beside the part's size.
+constexpr double kPlaceRounding = 1e-15;
+
 /// Series of this order hold for a panel. Longer ones, of straight motion, hold for two.
 constexpr int kPanelOrder = 22;
 
@@ -162,7 +165,9 @@ EnergyLedger EnergyAccount::ledger() const {
   const double balance = ledger.final - ledger.initial - (ledger.excitation_work + ledger.turning - losses);
   ledger.exchanged = std::abs(ledger.initial) + std::abs(ledger.excitation_work) + std::abs(ledger.turning) +
                      ledger.gripper_loss + ledger.base_loss + ledger.friction_loss + std::abs(ledger.release_loss);
-  ledger.residual = ledger.exchanged > 0.0 ? std::abs(balance) / ledger.exchanged : 0.0;
+  // a trial that ends where it began exchanges nothing: less than the last digits of a place, squared, in the spring
+  const double digit = kPlaceRounding * (system_.half_width + system_.base_distance);
+  ledger.residual = ledger.exchanged > system_.y.stiffness * digit * digit ? std::abs(balance) / ledger.exchanged : 0.0;
   return ledger;
 }
 
