@@ -276,8 +276,8 @@ class Search {
   /// Zeros that N starts with. Where rounding leaves a push instead of a single one, that is what it starts with: in a
   /// stiff damper it relaxes, and makes a slope of its own at which zero would fall.
   int zeros_of(const Series& normal_force, int pinned) const {
-    if (pinned == 1 && normal_force[0] > 0.0) return 0;
     if (pinned != 1) return pinned;
+    if (normal_force[0] > 0.0) return 0;
     // on a base without damping what the last digits of lengths make of the powers is not where N rises or falls
     const double stiffness = std::max(system_.stiffness_x, system_.stiffness_y);
     const int zeros = zeros_on_border(normal_force, stiffness * length_rounding());

@@ -376,14 +376,14 @@ bool ImplicitStep::keeps_contacts(const Segment& segment, const Pins& pins) cons
   const bool is_dry = system_.friction > 0.0 && system_.regularization == 0.0;
   const double lasts = at_start_ && is_dry && length_ > base_time_ ? std::exp(-length_ * ring_decay_) : 0.0;
   const double most = kMostOverForce + (kMostLastingOverForce - kMostOverForce) * lasts;
+  // in the first step of all the nodes alone tell: the polynomial may begin at the state, with the ring in it
+  const auto begins_at = [&](const Series& force, const Octet& at_nodes) {
+    return at_start_ ? weighted_sum(stage_table().at_start, at_nodes) : force[0];
+  };
   for (std::size_t i = 0; i < static_cast<std::size_t>(segment.loaded_count); ++i) {
     const ContactSeries& contact = segment.loaded[i];
     if (pins[static_cast<std::size_t>(contact.site)].normal > 0) continue;  // N starts from zero
     const Face face = segment.contacts[static_cast<std::size_t>(contact.site)].face;
-    // in the first step of all the nodes alone tell: the polynomial may begin at the state, with the ring in it
-    const auto begins_at = [&](const Series& force, const Octet& at_nodes) {
-      return at_start_ ? weighted_sum(stage_table().at_start, at_nodes) : force[0];
-    };
     const ContactForceOctet& at_nodes = equations_.forces().contact[i];
     const double of_state = state.contact[i].normal_force;
     const double of_step = begins_at(contact.normal_force, at_nodes.normal_force);

@@ -160,10 +160,14 @@ double held_for(const BernsteinForm& form) {
   return rise > 0.0 ? form.at_start() / rise : std::numeric_limits<double>::infinity();
 }
 
-/// Whether one condition rises more slowly than another from the zeros that both start with: its face is the nearer
+/// Of two conditions that start with zeros, whether the first rises more slowly beyond them: its face is the nearer
 /// one.
-bool rises_slower(const Series& a, const Series& b, int order) {
-  return std::lexicographical_compare(a.begin() + 1, a.begin() + order + 1, b.begin() + 1, b.begin() + order + 1);
+bool rises_slower(const Conditions& conditions, int first, int second, int order) {
+  const int zeros = conditions.zeros_at_start[first];
+  if (zeros != conditions.zeros_at_start[second]) return zeros > conditions.zeros_at_start[second];
+  const Series &a = conditions.g[first], &b = conditions.g[second];
+  return std::lexicographical_compare(a.begin() + zeros, a.begin() + order + 1, b.begin() + zeros,
+                                      b.begin() + order + 1);
 }
 
 /// Of two conditions that hold at the start, whether the first became true later; of two that begin to at once, whether
@@ -276,9 +280,7 @@ Entry first_entry(const Conditions& conditions, int order, double h) {
       if (holds_for_less(forms[i], forms[entry.last])) entry.last = i;
     int on_face = -1;
     for (int i = 0; i < conditions.count; ++i)
-      if (conditions.zeros_at_start[i] > 0 &&
-          (on_face < 0 || rises_slower(conditions.g[i], conditions.g[on_face], order)))
-        on_face = i;
+      if (conditions.zeros_at_start[i] > 0 && (on_face < 0 || rises_slower(conditions, i, on_face, order))) on_face = i;
     if (on_face >= 0) entry.last = on_face;
   }
   if (entry.time != kNoRoot) entry.time *= h;

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "../support/fixed_step.h"
 #include "mechanics/system.h"
 #include "model/scene_error.h"
 #include "random_scene.h"
-#include "trial/simulation.h"
+#include "trace.h"
 
 namespace vibratory_alignment::hunt {
 namespace {
@@ -21,13 +20,11 @@ namespace {
 /// Scenes in which something is touched that each solver is asked for.
 constexpr int kScenes = 10;
 
-/// Later touches are not compared: each can make a difference ten times larger.
-constexpr int kMostTouches = 3;
+/// Places are compared up to this touch: each one makes differences ten times larger.
+constexpr std::size_t kMostTouches = 4;
 
 /// The first step, times the fastest rate, and how many there are at most; each of the next is a quarter of the last.
 constexpr double kStep = 0.04, kSteps = 5e3;
-
-constexpr int kInstants = 20;
 
 /// Rate of what a step has to follow: the base, its damper, the tanh layer.
 double fastest_rate(const System& system) {
@@ -40,37 +37,12 @@ double fastest_rate(const System& system) {
   return std::max({std::sqrt(stiffness * mobility), damping * mobility, layer});
 }
 
-struct Places {
-  std::vector<State> at_instants;  ///< until the first touch that is not compared
-  int touches = 0;
-};
-
-/// Places at equal parts of `time`; `most_touches`: none after these.
-Places places_of(Scene scene, double time, int most_touches = 1 << 20) {
-  scene.solver.step_limit = 1'000'000;
-  SimulationOptions options;
-  options.energy = false;
-  options.until = time;
-  Simulation simulation(scene, options);
-  Places places;
-  while (simulation.advance() && places.touches <= most_touches) {
-    const Segment& segment = simulation.segment();
-    while (places.at_instants.size() < kInstants) {
-      const double t = time * static_cast<double>(places.at_instants.size() + 1) / (kInstants + 1);
-      if (t > segment.end_time()) break;
-      places.at_instants.push_back(state_at(segment, std::clamp(t - segment.start.value(), 0.0, segment.duration)));
-    }
-    for (int i = 0; i < segment.event_count; ++i)
-      if (segment.events[static_cast<std::size_t>(i)].kind == EventKind::touch) ++places.touches;
-  }
-  return places;
-}
-
-double difference(const System& system, const Places& a, const Places& b) {
+/// How far apart the two are, at the instants that both have.
+double difference_of_places(const System& system, const Trace& a, const Trace& b) {
   const double reach = system.half_width + system.base_distance;
   double largest = 0.0;
-  for (std::size_t i = 0; i < std::min(a.at_instants.size(), b.at_instants.size()); ++i) {
-    const State &p = a.at_instants[i], &q = b.at_instants[i];
+  for (std::size_t i = 0; i < std::min(a.places.size(), b.places.size()); ++i) {
+    const State &p = a.places[i], &q = b.places[i];
     largest = std::max({largest, std::abs(p.x - q.x), std::abs(p.y - q.y), reach * std::abs(p.phi - q.phi)});
   }
   return largest / reach;
@@ -81,21 +53,27 @@ class FixedSteps : public testing::TestWithParam<std::string> {};
 TEST_P(FixedSteps, tend_to_the_motion_of_event) {
   int compared = 0;
   for (std::uint64_t seed = 0; compared < kScenes; ++seed) {
-    const Scene scene = random_scene(seed, Range::ordinary);
+    Scene scene = random_scene(seed, Range::ordinary);
     std::optional<System> system;
     try {
       system = make_system(scene);
     } catch (const SceneError&) {
       continue;  // no start
     }
-    const double step = kStep / fastest_rate(*system), time = std::min(scene.trial.time_limit, kSteps * step);
-    const Places exact = places_of(test::with_event_solver(scene, 1e-11), time, kMostTouches);
-    if (exact.touches == 0 || exact.at_instants.empty()) continue;
+    const double step = kStep / fastest_rate(*system);
+    scene.trial.time_limit = std::min(scene.trial.time_limit, kSteps * step);
+    Trace exact = run_trial(test::with_event_solver(scene, 1e-11), false);
+    if (exact.touches.size() >= kMostTouches) {
+      const double share = exact.touches[kMostTouches - 1].time / scene.trial.time_limit;
+      exact.places.resize(std::min(exact.places.size(), static_cast<std::size_t>(share * (kInstants + 1))));
+    }
+    if (exact.touches.empty() || exact.places.empty()) continue;
     std::array<double, 3> errors{};
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      errors[i] = difference(
-          *system, exact,
-          places_of(test::with_solver(scene, GetParam(), step * std::pow(0.25, static_cast<double>(i))), time));
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      Scene by_steps = test::with_solver(scene, GetParam(), step * std::pow(0.25, static_cast<double>(i)));
+      by_steps.solver.step_limit = 1'000'000;
+      errors[i] = difference_of_places(*system, exact, run_trial(by_steps, false));
+    }
     // order one, but for where in a step a touch falls: sixteen times as many steps, a sixteenth on average
     EXPECT_LT(errors[2], 0.5 * std::max(errors[0], errors[1]) + 1e-12)
         << seed << ": " << errors[0] << " " << errors[1] << " " << errors[2];
