@@ -24,9 +24,9 @@ struct LayerJacobian {
 
 /// Rows: x'', y'', phi''. The columns of a locked axis are zero.
 struct ForceJacobian {
-  Eigen::Matrix3d by_position;  ///< by x, y, phi
-  Eigen::Matrix3d by_velocity;  ///< by x', y', phi'
-  int count = 0;                ///< of contacts
+  Eigen::Matrix3d by_position;                    ///< by x, y, phi
+  Eigen::Matrix3d by_velocity;                    ///< by x', y', phi'
+  int count = 0;                                  ///< of contacts
   std::array<NormalJacobian, kSiteCount> normal;  ///< of those of Forces::contact, part of the above
   int layer_count = 0;
   std::array<LayerJacobian, kSiteCount> layer;  ///< of the contacts in the tanh layer, which are part of the above

@@ -10,6 +10,12 @@ namespace {
 /// Last digits of lengths.
 constexpr double kOnWall = 1e-15;
 
+/// Half the width of the slot, for a corner that on a wall's line, to the last digits, is in it, as one that touches
+/// the wall is.
+double slot_end(const System& system) {
+  return system.slot_half_width + kOnWall * (system.slot_half_width + system.half_width + system.base_distance);
+}
+
 }  // namespace
 
 Region site_region(const System& system, Site site, int half) {
@@ -75,13 +81,14 @@ Region face_limits(const System& system, Face face, const Vec2& p) {
 }
 
 Region insertion_region(const System& system, double depth, bool between_walls, const ContactState& contact) {
-  // a corner on a wall's line, to the last digits, is in the slot, as one that touches the wall is
-  const double l = system.slot_half_width + kOnWall * (system.slot_half_width + system.half_width);
+  const double l = slot_end(system);
   Region region;
   region.count = between_walls && !contact.on_wall() ? 3 : 1;
   region.conditions = {{{0.0, -1.0, -depth, Face::none}, {1.0, 0.0, l, Face::none}, {-1.0, 0.0, l, Face::none}}};
   return region;
 }
+
+bool is_in_slot(const System& system, double x) { return std::abs(x) <= slot_end(system); }
 
 bool site_in_use(const System& system, Site site) {
   switch (site) {
@@ -119,7 +126,7 @@ void place_contacts(const System& system, const State& state, ContactStates& con
       if (!inside) continue;
       contact.phase = Phase::free;
       // a corner below the floor level but beside the slot is in the base, not on the floor, unless it presses a wall
-      const bool beside = nearest == Face::floor && std::abs(p.x) > system.slot_half_width;
+      const bool beside = nearest == Face::floor && !is_in_slot(system, p.x);
       const Face corner_face = beside ? contacts[i - 2].face : Face::none;
       if (nearest == Face::none || (beside && corner_face != Face::right_wall && corner_face != Face::left_wall))
         continue;

@@ -39,6 +39,9 @@ Region face_limits(const System& system, Face face, const Vec2& p);
 /// is, and one on its line to the last digits.
 Region insertion_region(const System& system, double depth, bool between_walls, const ContactState& contact);
 
+/// Whether a corner at this x is between the walls, or on the line of one to the last digits.
+bool is_in_slot(const System& system, double x);
+
 /// Whether the scene uses the site at all.
 bool site_in_use(const System& system, Site site);
 

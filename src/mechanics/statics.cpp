@@ -20,7 +20,7 @@ constexpr double kPi = 3.14159265358979323846;
 /// Sides have no upper end; a touch farther up them than this many sizes of the part is none that a scene means.
 constexpr double kFarthestTouch = 100.0;
 
-/// Moment left over in an equilibrium, relative to those that balance.
+/// Force or moment left over in an equilibrium, relative to those that balance.
 constexpr double kBalanced = 1e-6;
 
 /// Secants after which a height is sought by other means; change of it that is rounding, relative to it.
@@ -81,7 +81,8 @@ double root_between(const Function& f, double low, double high) {
   return 0.5 * (bracket.first + bracket.second);
 }
 
-/// Height at which the vertical forces balance: the highest one below `top`, where nothing is touched.
+/// Height at which the vertical forces balance: the highest one below `top`, where nothing is touched. None where they
+/// jump over the balance, as another face becomes the nearest one.
 std::optional<double> balanced_height(const System& system, double x, double phi, double top) {
   struct Height {
     double y, lift;
@@ -106,6 +107,10 @@ std::optional<double> balanced_height(const System& system, double x, double phi
     if (way > kLongestWay) return std::nullopt;
     high = std::exchange(low, next(low.y));
   }
+  const auto balanced = [&](double y) -> std::optional<double> {
+    const double left = kBalanced * load + most_stiffness * beside(system, x, y);
+    return std::abs(at(y).lift) <= left ? std::optional(y) : std::nullopt;
+  };
   // the secant of the last two heights, or where it leads away the chord: between two breaks the forces grow in
   // proportion to depth, but for friction
   Height before = high, here = low;
@@ -113,11 +118,11 @@ std::optional<double> balanced_height(const System& system, double x, double phi
     const auto root = [](const Height& a, const Height& b) { return b.y - b.lift * (b.y - a.y) / (b.lift - a.lift); };
     double y = root(before, here);
     if (!(y > low.y && y < high.y)) y = root(high, low);
-    if (std::abs(y - here.y) <= kLastDigits * std::abs(y)) return y;
+    if (std::abs(y - here.y) <= kLastDigits * std::abs(y)) return balanced(y);
     before = std::exchange(here, at(y));
     (here.lift < 0.0 ? high : low) = here;
   }
-  return root_between([&](double y) { return at(y).lift; }, low.y, high.y);
+  return balanced(root_between([&](double y) { return at(y).lift; }, low.y, high.y));
 }
 
 }  // namespace
@@ -136,7 +141,7 @@ std::optional<double> touch_height(const System& system, double x, double phi) {
   for (const Site site : {Site::b1, Site::b2}) {
     const Vec2 corner = site_point(system, state, site);
     if (system.contacts.corners && std::abs(corner.x) >= l) offer(-corner.y);
-    if (system.has_floor && std::abs(corner.x) < l) offer(-corner.y - system.floor_depth);
+    if (system.has_floor && is_in_slot(system, corner.x)) offer(-corner.y - system.floor_depth);
   }
   return highest;
 }

@@ -10,7 +10,7 @@ namespace {
 /// A corner reaches the floor only inside the slot, or while it presses into a wall.
 bool over_floor(const System& system, const ContactBook& book, Site site, const Vec2& point) {
   const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
-  return book.contacts[static_cast<std::size_t>(corner)].on_wall() || std::abs(point.x) <= system.slot_half_width;
+  return book.contacts[static_cast<std::size_t>(corner)].on_wall() || is_in_slot(system, point.x);
 }
 
 /// A condition of a region, at a point, with the surface of a base that has been left not back yet.

@@ -26,6 +26,9 @@ constexpr double kSurelySliding = 1e-8;
 /// Rounding of a length relative to those that it is made of; and how many times as much that of steps adds up to.
 constexpr double kLengthRounding = 3e-16, kAddedUp = 20.0;
 
+/// A rate this small, relative to the speed of the part, may be what rounding has left.
+constexpr double kRateRounding = 1e-12;
+
 /// Times are compared with that of what has been found only up to rounding.
 constexpr double kSurelyLater = 1.0 + 1e-12;
 
@@ -42,13 +45,14 @@ constexpr double kRestAllowance = 10.0;
 class Search {
  public:
   Search(const System& system, MotionSeries& series, Segment& segment, const Pins& pins, const Recoveries& recoveries,
-         const DriveForms& drives, FoundEvents& found)
+         const DriveForms& drives, double tolerance, FoundEvents& found)
       : system_(system),
         series_(series),
         segment_(segment),
         pins_(pins),
         recoveries_(recoveries),
         drives_(drives),
+        tolerance_(tolerance),
         order_(segment.order),
         duration_(segment.duration),
         bounds_(system, segment, pins, {segment.cos_phi[0], segment.sin_phi[0]}),
@@ -152,8 +156,15 @@ class Search {
     double before = found_.count > 0 ? found_.time : kNoRoot;
     for (const double time : slips.time)
       if (time != kNoRoot && (before == kNoRoot || time < before)) before = time;
-    const int zeros = zeros_of(contact.normal_force, pins_[static_cast<std::size_t>(site)].normal);
-    offer(fall_before(before, contact.normal_force, order_, zeros), EventKind::release, site);
+    const int zeros = zeros_of_force(site, contact.normal_force);
+    const double release = fall_before(before, contact.normal_force, order_, zeros);
+    // both limits of T at once: T is zero, and so is N, to the last digits
+    const double both = slips.time[0] == slips.time[1] ? slips.time[0] : kNoRoot;
+    if (both != kNoRoot) {
+      offer(release == kNoRoot ? both : std::min(release, both), EventKind::release, site);
+      return;
+    }
+    offer(release, EventKind::release, site);
     for (const double time : slips.time) offer(time, slips.kind, site);
   }
 
@@ -275,13 +286,24 @@ class Search {
 
   /// Zeros that N starts with. Where rounding leaves a push instead of a single one, that is what it starts with: in a
   /// stiff damper it relaxes, and makes a slope of its own at which zero would fall.
-  int zeros_of(const Series& normal_force, int pinned) const {
+  int zeros_of_force(Site site, const Series& normal_force) const {
+    const auto index = static_cast<std::size_t>(site);
+    const int pinned = pins_[index].normal;
     if (pinned != 1) return pinned;
     if (normal_force[0] > 0.0) return 0;
-    // on a base without damping what the last digits of lengths make of the powers is not where N rises or falls
-    const double stiffness = std::max(system_.stiffness_x, system_.stiffness_y);
+    // on a base without damping what the last digits of lengths make of the powers is not where N begins to fall
+    const Face face = segment_.contacts[index].face;
+    if (damping_of(system_, face, segment_.cos_phi[0], segment_.sin_phi[0]) > 0.0) return pinned;
+    const double stiffness = stiffness_of(system_, face, segment_.cos_phi[0], segment_.sin_phi[0]);
     const int zeros = zeros_on_border(normal_force, stiffness * length_rounding());
-    return zeros <= order_ ? zeros : pinned;
+    return zeros <= order_ && normal_force[zeros] > 0.0 ? zeros : pinned;
+  }
+
+  /// Speed of the part's points at the start, at most.
+  double speed_at_start() const {
+    const double reach = std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width +
+                         system_.base_distance + system_.slot_half_width;
+    return std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + std::abs(segment_.omega[0]) * reach;
   }
 
   /// Last digits of lengths.
@@ -290,14 +312,21 @@ class Search {
                               system_.base_distance + system_.slot_half_width);
   }
 
-  /// Of a point that is said to be outside, but is inside from the start: conditions of its region that it is leaving
-  /// by last digits that have added up count as zero. True if there are any.
-  static bool counts_as_leaving(const Region& region, double rounding, Conditions& conditions) {
+  /// Of a point that is said to be outside, but is inside from the start by the error of the steps before (by last
+  /// digits only where it is on a border): conditions of its region that it is leaving, or moves along, count as zero.
+  /// True if there are any.
+  bool counts_as_leaving(const Region& region, double rounding, Conditions& conditions) const {
+    const double added_up = kAddedUp * rounding;
+    const auto known = conditions.zeros_at_start;
+    const bool on_border =
+        std::any_of(known.begin(), known.begin() + region.count, [](int zeros) { return zeros > 0; });
+    const double most = on_border ? added_up : added_up + tolerance_ * (system_.half_width + system_.base_distance);
     bool any = false;
     for (int j = 0; j < region.count; ++j) {
-      const bool leaves = conditions.g[j][1] < 0.0 && conditions.g[j][0] <= kAddedUp * rounding;
-      if (conditions.zeros_at_start[j] > 0 || !leaves) continue;
-      conditions.zeros_at_start[j] = 1;
+      if (known[j] > 0 || conditions.g[j][0] > most) continue;
+      const int zeros = zeros_on_border(conditions.g[j], added_up);
+      if (zeros <= order_ && conditions.g[j][zeros] >= 0.0) continue;
+      conditions.zeros_at_start[j] = zeros;
       any = true;
     }
     return any;
@@ -312,6 +341,19 @@ class Search {
     return k;
   }
 
+  /// The same of a condition that lets a point in. One that leaves first, if by last digits only, comes back later,
+  /// with a rate that pushes on a damper.
+  int zeros_of_entry(const Series& g, double rounding) const {
+    const int zeros = zeros_on_border(g, rounding);
+    return zeros > order_ || g[1] >= -kRateRounding * speed_at_start() ? zeros : 1;
+  }
+
+  /// True when one of the conditions stays as it is.
+  bool moves_along(const Conditions& conditions) const {
+    return std::any_of(conditions.zeros_at_start.begin(), conditions.zeros_at_start.begin() + conditions.count,
+                       [&](int zeros) { return zeros > order_; });
+  }
+
   void guard_outside(Site site) {
     const auto index = static_cast<std::size_t>(site);
     const double rounding = length_rounding();
@@ -320,7 +362,6 @@ class Search {
       if (stays_outside(site, region, pins_[index].face)) continue;
       Conditions conditions;
       conditions.count = region.count;
-      bool is_along = false;
       for (int j = 0; j < region.count; ++j) {
         const Face face = region.conditions[j].face;
         conditions.g[j] = condition_series(region.conditions[j], site);
@@ -330,15 +371,16 @@ class Search {
         const bool pinned = pins_[index].face == face && !recovering;
         // of a condition that holds by no more than last digits its change decides
         const double at_start = conditions.g[j][0];
-        const bool on_border = at_start >= 0.0 && at_start <= rounding;
-        const int zeros = pinned ? 1 : on_border ? zeros_on_border(conditions.g[j], rounding) : 0;
-        conditions.zeros_at_start[j] = zeros;
-        is_along = is_along || zeros > order_;
+        const bool on_border = pinned || (at_start >= 0.0 && at_start <= rounding);
+        const int zeros = on_border ? zeros_of_entry(conditions.g[j], rounding) : 0;
+        conditions.zeros_at_start[j] = pinned && zeros <= order_ ? 1 : zeros;
       }
-      if (is_along) continue;
+      if (moves_along(conditions)) continue;
       Entry entry = first_entry(conditions, order_, duration_);
-      if (entry.time == 0.0 && counts_as_leaving(region, rounding, conditions))
+      if (entry.time == 0.0 && counts_as_leaving(region, rounding, conditions)) {
+        if (moves_along(conditions)) continue;
         entry = first_entry(conditions, order_, duration_);
+      }
       if (entry.time == kNoRoot) continue;
       const Face face = region.conditions[entry.last].face;
       const bool touches = is_called_for(system_, face) && (face != Face::floor || over_floor(site, entry.time));
@@ -351,7 +393,7 @@ class Search {
     const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
     if (segment_.contacts[static_cast<std::size_t>(corner)].on_wall()) return true;
     const Series across = condition_series({1.0, 0.0, 0.0, Face::none}, site);
-    return std::abs(value_at(across, order_, time)) <= system_.slot_half_width;
+    return is_in_slot(system_, value_at(across, order_, time));
   }
 
   void guard_free(Site site) {
@@ -359,10 +401,12 @@ class Search {
     const Vec2 p = bounds_.start_point(site);
     const int half = region_count(site) == 2 && p.x < 0.0 ? 1 : 0;
     const Region region = site_region(system_, site, half);
+    const double rounding = length_rounding();
     for (int j = 0; j < region.count; ++j) {
-      const RegionCondition& condition = region.conditions[j];
-      offer(first_fall(condition_series(condition, site), order_, segment_.duration, 0), EventKind::leave, site,
-            condition.face);
+      const Series g = condition_series(region.conditions[j], site);
+      const int zeros = std::abs(g[0]) <= rounding ? zeros_on_border(g, rounding) : 0;
+      if (zeros > order_) continue;
+      offer(first_fall(g, order_, segment_.duration, zeros), EventKind::leave, site, region.conditions[j].face);
     }
   }
 
@@ -388,6 +432,7 @@ class Search {
   const Pins& pins_;
   const Recoveries& recoveries_;
   const DriveForms& drives_;
+  double tolerance_;
   int order_;
   double duration_;
   MotionBounds bounds_;               ///< up to `duration_`
@@ -400,8 +445,8 @@ class Search {
 
 void find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
                  const Recoveries& recoveries, const OutcomeGuards& outcomes, const DriveForms& drives,
-                 FoundEvents& found) {
-  Search(system, series, segment, pins, recoveries, drives, found).run(outcomes);
+                 double tolerance, FoundEvents& found) {
+  Search(system, series, segment, pins, recoveries, drives, tolerance, found).run(outcomes);
 }
 
 }  // namespace vibratory_alignment

@@ -24,8 +24,9 @@ struct FoundEvents {
 };
 
 /// Adds the first event within [0, duration] of the segment to `found`, which has none, with all that coincide with it.
+/// `tolerance`: error that steps leave in places, relative to the part's lengths.
 [[gnu::noinline]] void find_events(const System& system, MotionSeries& series, Segment& segment, const Pins& pins,
                                    const Recoveries& recoveries, const OutcomeGuards& outcomes,
-                                   const DriveForms& drives, FoundEvents& found);
+                                   const DriveForms& drives, double tolerance, FoundEvents& found);
 
 }  // namespace vibratory_alignment

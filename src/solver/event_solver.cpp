@@ -376,7 +376,7 @@ void EventSolver::go_along(double step, double longest, double point_tolerance, 
     found_.events[0] = {EventKind::slip, first_sticking(mode_.contacts)};
   } else if (segment_.duration != searched_) {
     found_.clear();
-    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, forms_, found_);
+    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, forms_, tolerance_, found_);
   }
   if (found_.count == 0) return;
   if (!contact && corrects_crossings() && found_.time > 0.0) found_.time = first_crossing(found_);

@@ -191,7 +191,7 @@ double EventSolver::usual_reach() {
 bool EventSolver::has_event(double step, const DriveForms& drives) {
   segment_.duration = searched_ = step;
   segment_.coarse = false;
-  find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found_);
+  find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, tolerance_, found_);
   return found_.count > 0;
 }
 
@@ -292,7 +292,7 @@ void EventSolver::retake_to_events(const DriveForms& drives, FoundEvents& found)
     const FoundEvents before = found;
     found.clear();
     segment_.duration = (1.0 + kMostDelay) * length;
-    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, found);
+    find_events(system_, series_, segment_, mode_.pins, mode_.recoveries, outcomes_, drives, tolerance_, found);
     if (found.count == 0 && length <= kMinute * now_.high) found = before;
     if (found.time > 0.0 && !system_.recovery) found.time = first_crossing(found);
     if (found.count == 0) {

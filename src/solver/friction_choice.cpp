@@ -21,9 +21,6 @@ constexpr double kProbeTolerance = 1e-3;
 /// asked again.
 constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4, 1e6};
 
-/// What is asked beyond this one has found no consistent choice by what rounding is thought to be.
-constexpr double kPlainRounding = 1.0;
-
 /// ... of which rounding of N has no more than this where T is held against its limit: beyond it T of any size would be
 /// within the limit on the stiffest base.
 constexpr double kMostLimitAllowance = 1e4;
@@ -78,7 +75,7 @@ void FrictionChoice::Judgement::contradict(int at_order, double size) {
 }
 
 /// V must grow in the direction of sliding. V of power k + 1 belongs to forces of power k.
-void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, double allowance, Judgement& judgement) const {
+void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, Judgement& judgement) const {
   const ContactSeries& contact = probe_.loaded[loaded];
   const auto site = static_cast<std::size_t>(contact.site);
   const double limit = noise.h * noise.slip_rate[loaded];
@@ -89,16 +86,8 @@ void FrictionChoice::judge_sliding(int loaded, const SeriesNoise& noise, double 
   const double friction = system_.friction * contact.normal_force[0];
   const double nearly = noise.state_slip_rate[loaded] + limit_error() * noise.mobility[loaded] * std::abs(friction);
   const bool broken = (known.normal > 0 || against_limit) && std::abs(contact.slip_velocity[1]) <= nearly;
-  const auto goes_forward = [&](const LeadingTerm& of) {
-    return of.positive == (probe_.contacts[site].slip == Slip::plus);
-  };
-  LeadingTerm term = leading_term(contact.slip_velocity, broken ? 2 : 1, kOrder, noise.h, limit);
-  bool forward = goes_forward(term);
-  if (broken && !forward && allowance > kPlainRounding) {
-    // where another contact comes to rest as this one goes on, V' may be as small and what drives it all the same
-    const LeadingTerm first = leading_term(contact.slip_velocity, 1, kOrder, noise.h, limit);
-    if (goes_forward(first)) term = first, forward = true;
-  }
+  const LeadingTerm term = leading_term(contact.slip_velocity, broken ? 2 : 1, kOrder, noise.h, limit);
+  const bool forward = term.positive == (probe_.contacts[site].slip == Slip::plus);
   if (term.order <= kOrder && !forward) {
     judgement.contradict(term.order - 1, term.size / limit);
     judgement.limits_kept = false;
@@ -118,8 +107,8 @@ void FrictionChoice::judge_sticking(int loaded, const SeriesNoise& noise, double
   const double capped = std::min(1.0, kMostLimitAllowance / allowance);
   const double limit_noise = capped * system_.friction * noise.normal_force[loaded];
   const double limit = limit_noise + std::min(capped * force_noise, kMostForceNoise * limit_noise);
-  const double nearly = system_.friction *
-                        (capped * noise.state_normal_force[loaded] + limit_error() * std::abs(contact.normal_force[0]));
+  const double nearly =
+      system_.friction * (noise.state_normal_force[loaded] + limit_error() * std::abs(contact.normal_force[0]));
   for (const double sign : {1.0, -1.0}) {
     Series guard;
     for (std::size_t k = 0; k < kOrder; ++k)
@@ -165,7 +154,7 @@ void FrictionChoice::judge(const State& state, const DriveForms& drives, double 
     if (probe_.contacts[site].slip == Slip::stick)
       judge_sticking(i, noise, allowance, force_noise[index], judgement);
     else
-      judge_sliding(i, noise, allowance, judgement);
+      judge_sliding(i, noise, judgement);
   }
 }
 

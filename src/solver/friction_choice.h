@@ -49,7 +49,7 @@ class FrictionChoice {
   bool has_event(std::size_t site) const;
   bool decide_alone(const State& state, const DriveForms& drives, std::size_t site, ContactMode& mode);
   void judge(const State& state, const DriveForms& drives, double allowance, Judgement& judgement);
-  void judge_sliding(int loaded, const SeriesNoise& noise, double allowance, Judgement& judgement) const;
+  void judge_sliding(int loaded, const SeriesNoise& noise, Judgement& judgement) const;
   void judge_sticking(int loaded, const SeriesNoise& noise, double allowance, double force_noise,
                       Judgement& judgement) const;
 

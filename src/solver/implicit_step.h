@@ -82,7 +82,8 @@ class ImplicitStep {
 
   /// True unless the last step, which filled `segment`, is the first one and passes over a ring of a normal force that
   /// is not small beside it, in place or speed: it may lift that contact, or make it slide another way; or, at the
-  /// start of the trial, one in which friction could not hold what sticks, or which nothing damps while friction is dry.
+  /// start of the trial, one in which friction could not hold what sticks, or which nothing damps while friction is
+  /// dry.
   bool keeps_contacts(const Segment& segment, const Pins& pins) const;
 
   /// True when the last step is one at the start of the trial and, as short as an event has made it, ends before the

@@ -12,8 +12,9 @@ namespace {
 /// Rounding of a coefficient relative to the largest term of its series.
 constexpr double kSeriesRounding = 4e-15;
 
-/// Rounding of the depth, which a stiff base turns into force, relative to the lengths that it is made of.
-constexpr double kStateRounding = 6e-16;
+/// Rounding of the depth, which a stiff base turns into force, relative to the lengths that it is made of; and how many
+/// times as much is allowed at most: beyond it T of any size would be at its limit on the stiffest base.
+constexpr double kStateRounding = 6e-16, kMostStateAllowance = 1e4;
 
 /// Largest |g_k| h^k.
 double largest_term(const Series& g, int order, double h) {
@@ -32,6 +33,7 @@ double largest_slope_term(const Series& g, int order, double h) {
 using Kinematics = std::array<ContactKinematics, kSiteCount>;
 
 TangentRow row_of(const ContactKinematics& k) { return {k.tangent.x, k.tangent.y, cross(k.lever, k.tangent)}; }
+TangentRow normal_row_of(const ContactKinematics& k) { return {k.normal.x, k.normal.y, cross(k.lever, k.normal)}; }
 
 bool sticks(const Segment& segment, int loaded) { return slip_of(segment, segment.loaded[loaded]) == Slip::stick; }
 
@@ -73,6 +75,10 @@ void hold_noise(const System& system, const Segment& segment, const Kinematics& 
     }
     noise.slip_rate[i] = std::min(noise.slip_rate[i], rate(row, shared) + motion);
     noise.mobility[i] = std::min(noise.mobility[i], rate(row, {holding.respond(row)}));
+    const double of_normal_force = rate(row, {holding.respond(normal_row_of(kinematics[i]))});
+    noise.state_slip_rate[i] =
+        std::min(noise.state_slip_rate[i],
+                 noise.state_normal_force[i] * (of_normal_force + system.friction * noise.mobility[i]) + motion);
   }
 }
 
@@ -114,7 +120,8 @@ SeriesNoise series_noise(const System& system, const Segment& segment, double h,
     const double c = segment.cos_phi[0], s = segment.sin_phi[0];
     const double stiff = stiffness_of(system, face, c, s), damping = damping_of(system, face, c, s);
     noise.normal_force[i] = rounding * largest_term(contact.normal_force, order, h);
-    noise.state_normal_force[i] = allowance * kStateRounding * (stiff * length + damping * speed);
+    noise.state_normal_force[i] =
+        std::min(allowance, kMostStateAllowance) * kStateRounding * (stiff * length + damping * speed);
     const double tangential =
         system.friction * noise.normal_force[i] + rounding * largest_term(contact.tangential_force, order, h);
     const ContactKinematics& k = kinematics[i] = contact_kinematics(system, start, contact.site, face);

@@ -78,6 +78,22 @@ bool only_slip(const FoundEvents& events) {
                      [](const Event& event) { return event.kind == EventKind::slip; });
 }
 
+/// True where other forces act from now on.
+bool change_forces(const FoundEvents& events) {
+  return events.kink ||
+         std::any_of(events.events.begin(), events.events.begin() + events.count, [](const Event& event) {
+           return event.kind == EventKind::touch || event.kind == EventKind::reload ||
+                  event.kind == EventKind::release || event.kind == EventKind::run_off;
+         });
+}
+
+/// Of what was zero with the forces before, the value still is, and no more.
+void keep_values_only(SitePins& pins) {
+  pins.slip = std::min(pins.slip, 1);
+  pins.hold_plus = std::min(pins.hold_plus, 1);
+  pins.hold_minus = std::min(pins.hold_minus, 1);
+}
+
 /// Slip velocity beyond which a contact slides with the full friction force.
 double sliding_threshold(const System& system) { return system.tanh_saturation * system.regularization; }
 
@@ -166,6 +182,7 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
                   FrictionChoice& friction, FoundEvents& events, ContactMode& mode) {
   // what was zero at the start no longer is, unless no time has passed
   if (!is_instant(system, segment)) mode.pins = {};
+  if (change_forces(events)) std::for_each(mode.pins.begin(), mode.pins.end(), keep_values_only);
   const State& state = segment.end;
   SiteFlags zero_slip{}, slides{};
   for (int i = 0; i < events.count; ++i) {

@@ -150,8 +150,9 @@ std::string fingerprint(const Calibration& calibration, const FindScene& find_sc
 /// refused with the values that a reading starts with: the search would run in vain.
 void check_calibration(const Calibration& calibration, const FactSuite& suite);
 
-/// Of a calibration that check_calibration() takes. Deterministic, whatever the threads. Throws SceneError for a facts file or study that is refused or a setting that
-/// no scene takes, FormulaError, and std::runtime_error when `go_on` ended it.
+/// Of a calibration that check_calibration() takes. Deterministic, whatever the threads. Throws SceneError for a facts
+/// file or study that is refused or a setting that no scene takes, FormulaError, and std::runtime_error when `go_on`
+/// ended it.
 CalibrationResult run_calibration(const Calibration& calibration, const CalibrationOptions& options);
 
 }  // namespace vibratory_alignment

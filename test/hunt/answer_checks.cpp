@@ -12,6 +12,9 @@
 namespace vibratory_alignment::hunt {
 namespace {
 
+/// Error that a step may leave in a place, beside the tolerance times the part's lengths.
+constexpr double kStepShare = 1e-3;
+
 Fault fault(Invariant invariant, const std::string& what, double value) {
   std::ostringstream text;
   text.precision(10);
@@ -77,9 +80,12 @@ std::optional<Fault> check_finite(const TrialResult& r) {
 
 std::optional<Fault> check_energy(const Scene& scene, const Trace& trace) {
   const EnergyLedger& e = *trace.result.energy;
-  // the gripper's spring knows its energy to the last digits of a place
-  const double digit = 1e-15 * (scene.part.half_width + scene.part.base_distance);
-  const double noise = 1e-12 * energy_terms(scene, e) + scene.gripper.y.stiffness * digit * digit + trace.energy_noise;
+  // the gripper's spring knows its energy to the last digits of a place, contacts to the error that steps leave in it
+  const double reach = scene.part.half_width + scene.part.base_distance, digit = 1e-15 * reach;
+  const auto& peaks = trace.result.peak_force;
+  const double noise = 1e-12 * energy_terms(scene, e) + scene.gripper.y.stiffness * digit * digit +
+                       kStepShare * scene.solver.tolerance * reach * *std::max_element(peaks.begin(), peaks.end()) +
+                       trace.energy_noise;
   const double errors = takes_implicit_steps(scene) ? kStepErrors : 10.0;
   const double allowed = errors * scene.solver.tolerance * e.exchanged + noise;
   const double losses = e.gripper_loss + e.base_loss + e.friction_loss + e.release_loss;

@@ -17,8 +17,10 @@ using test::TouchPoint;
 
 constexpr double kDigits = 1e-13;
 constexpr double kTimeDigits = 4e-16, kPlaceDigits = 4e-16;
-constexpr double kSlipErrors = 1e3;        ///< V also holds what T was wrong by in the segments before
-constexpr double kForceDigits = 1e-15;     ///< forces that are in balance
+constexpr double kSlipErrors = 1e3;     ///< V also holds what T was wrong by in the segments before
+constexpr double kForceDigits = 1e-15;  ///< forces that are in balance
+constexpr double kSharedForce =
+    4e-10;  ///< of T that contacts share, each one's (docs/hybrid_step.md "Rounding in these decisions")
 constexpr double kFastestRecovery = 1e12;  ///< a base that recovers at this rate is taken to do so at once
 constexpr double kWorstCut = 1e-4;         ///< part of its terms that a force's series may leave out
 /// An implicit step fulfils the equations of motion at its end (but where an event has ended it at once, relative to
@@ -158,6 +160,7 @@ class SegmentCheck {
     double t_noise = system_.friction * n_noise + (kDigits + tolerance_) * terms.tangential;
     const double slip_noise =
         kSlipErrors * (digits_ + tolerance_) * speed + mobility(system_, p) * (n_noise + t_noise) * segment_.duration;
+    if (segment_.loaded_count > 1) t_noise += kSharedForce * limit;
     if (system_.regularization > 0.0) t_noise += limit * slip_noise / system_.regularization;
     if (std::abs(t) > limit + t_noise) return fault(Invariant::friction_cone, "|T| - f N", std::abs(t) - limit);
     // judged by the energy that it feeds in, for a last digit of V may stay where an event has ended a segment at once

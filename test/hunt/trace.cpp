@@ -120,7 +120,7 @@ Trace run_trial(const Trial& trial, bool checked, double uncertain) {
   const System& system = simulation.system();
   const double size = system.half_width + system.base_distance, unseen = uncertain * scene.solver.tolerance * size;
   Hops hops(system);
-  double way_since_touch = INFINITY;  // at most
+  double way_since_touch = 0.0;  // or since the start; at most
   while (simulation.advance()) {
     changer.make_due(simulation);
     const Segment& segment = simulation.segment();

@@ -319,6 +319,33 @@ trial: {time_limit: 2}
 
 // REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
 // x).
+// A base that is a hundred times as stiff along x: where the side of the tilted part becomes the face that an edge is
+// nearest to, the lift jumps from less than the load to more, and nothing balances.
+TEST(Equilibrium, is_not_where_the_forces_jump) {
+  const std::string tilted = R"(
+part: {half_width: 1, base_distance: 1}
+slot: {clearance: 0.1}
+gripper: {stiffness: {y: 1}, anchor: {phi: -1.0}, pressing_force: 1}
+base: {stiffness: {x: 100, y: 1}}
+contacts: [edges]
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 1.39, phi: -1.0}
+trial: {time_limit: 3}
+)";
+  int refused = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = scene_of(tilted, {"initial.x=" + number_text(1.3 + 1e-3 * i)});
+    try {
+      const System system = make_system(scene);
+      EXPECT_NEAR(static_load(system, system.start.x, system.start.y, system.start.phi).force_y, 0.0, 1e-12) << i;
+    } catch (const SceneError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, 100);
+}
+
 TEST(Equilibrium, of_r1_is_its_closed_form) {
   const Scene scene =
       scene_of(plain, {"initial.x=0.2", "gripper.anchor.x=0.2", "gripper.anchor.phi=0.0", "friction.coefficient=0.2",

@@ -139,5 +139,61 @@ TEST(Grazing, a_contact_that_barely_holds) {
     }
 }
 
+// A part that starts on the base, without a damper, with a speed of which N rises by less than last digits of lengths:
+// it touches and is thrown back, no faster than it came but for the last digit of a depth, or is lifted off by the
+// spring.
+TEST(Grazing, a_landing_of_the_last_digits_ends) {
+  for (const double half_width : {1.0, 100.0, 1e3, 1e4})
+    for (const double anchor : {1.0, 2.0})
+      for (double speed = 1e-16; speed < 1e-6; speed *= 1.7) {
+        Scene scene = test::scene_of(R"(
+part: {half_width: 1, base_distance: 1}
+slot: {clearance: 0.1}
+gripper: {stiffness: {x: 0}, anchor: {x: 0.5, y: 1}}
+base: {stiffness: {y: 1.0e+8}}
+contacts: [edges]
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0.5, y: 1, phi: 0}
+trial: {time_limit: 0.5}
+)");
+        scene.part.half_width = half_width;
+        scene.gripper.anchor_y = anchor;
+        scene.initial.vy = -speed;
+        const TrialResult result = test::run(scene);
+        ASSERT_NE(result.outcome, Outcome::failed)
+            << result.failure << " " << half_width << " " << anchor << " " << speed;
+        // pulled up by anchor - 1 for half a time unit at most
+        EXPECT_LE(std::abs(result.final_state.vy), speed + 0.5 * (anchor - 1.0) + 1e4 * 3e-16)
+            << half_width << " " << speed;
+      }
+}
+
+// A part let down into the slot beside a wall, on whose line its corner is to the last digits: both corners stand on
+// the floor, level, y = -depth + b less half the load over k each.
+TEST(Grazing, a_corner_on_the_line_of_a_wall_stands_on_the_floor) {
+  for (const char* solver : {"event", "implicit", "auto", "rk4"})
+    for (const double sign : {1.0, -1.0})
+      for (const double beside : {-3e-16, 0.0, 3e-16}) {
+        Scene scene = test::scene_of(R"(
+part: {half_width: 1, base_distance: 1, inertia: 0.5}
+slot: {clearance: 0.01, depth: 0.5}
+gripper: {stiffness: {x: 0, phi: 1}, damping: {y: 0.2}, anchor: {x: 0.01, y: 0}}
+base: {stiffness: {y: 1000}, damping: {x: 10, y: 10}}
+contacts: [walls]
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0.01, y: 1.2, phi: 0}
+trial: {time_limit: 30}
+)");
+        scene.solver.name = solver;
+        if (scene.solver.name == "rk4") scene.solver.step = 1e-3;
+        scene.initial.x = scene.gripper.anchor_x = sign * (0.01 + beside);
+        double most = 0.0;
+        const auto follow = [&](const Segment& g) { most = std::max(most, std::abs(g.end.phi)); };
+        const TrialResult result = test::run(scene, follow, 30.0);
+        EXPECT_LE(most, 1e-12) << solver << " " << sign << " " << beside;
+        EXPECT_NEAR(result.final_state.y, 0.5 - 0.5 / 2001.0, 1e-3) << solver << " " << sign << " " << beside;
+      }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

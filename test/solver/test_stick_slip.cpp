@@ -84,6 +84,23 @@ initial: {x: 0.3}
 trial: {time_limit: 20.0}
 )";
 
+// Nothing pulls along x: T is exactly zero, and both of its limits are reached where N is. It is let go there.
+TEST(StickSlip, what_nothing_pulls_is_let_go_without_sliding) {
+  for (const std::string friction : {"0.4", "1.0", "3.0"})
+    for (const std::string tolerance : {"1.0e-4", "1.0e-6", "1.0e-8"}) {
+      const Scene scene = test::scene_of(two_footed_block,
+                                         {"excitation={amplitude: 1.0, frequency: 3.0, direction: y}",
+                                          "friction.coefficient=" + friction, "solver={tolerance: " + tolerance + "}"});
+      int releases = 0;
+      for (const TimedEvent& event : events_of(scene, 20.0)) {
+        EXPECT_NE(event.event.kind, EventKind::slip) << friction << " " << tolerance << " at " << event.time;
+        EXPECT_EQ(event.state.x, 0.3) << friction << " " << tolerance << " at " << event.time;
+        releases += event.event.kind == EventKind::release;
+      }
+      EXPECT_GT(releases, 10) << friction << " " << tolerance;
+    }
+}
+
 // Edge and corner share the load and hold up to the sum of their limits.
 TEST(StickSlip, a_part_held_by_edge_and_corner_slips_when_the_drive_reaches_both_limits) {
   // each carries half: sag N/k of half the load

@@ -105,7 +105,7 @@ TEST(Symmetry, events_beside_a_loaded_contact_are_alike_bit_for_bit) {
       const DriveForms none;
       series.expand_contact(segment.begin, none, 18, segment);
       segment.duration = series_step(system, segment, 1e-11);
-      find_events(system, series, segment, {}, {}, {}, none, found[left ? 1 : 0]);
+      find_events(system, series, segment, {}, {}, {}, none, 1e-11, found[left ? 1 : 0]);
     }
     ASSERT_EQ(found[0].count, found[1].count) << i;
     ASSERT_EQ(found[0].time, found[1].time) << i;
