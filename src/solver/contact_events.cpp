@@ -291,11 +291,11 @@ class Search {
     const int pinned = pins_[index].normal;
     if (pinned != 1) return pinned;
     if (normal_force[0] > 0.0) return 0;
-    // on a base without damping what the last digits of lengths make of the powers is not where N begins to fall
+    // what the last digits of lengths make of the powers is not where N begins to fall
+    const double c = segment_.cos_phi[0], s = segment_.sin_phi[0];
     const Face face = segment_.contacts[index].face;
-    if (damping_of(system_, face, segment_.cos_phi[0], segment_.sin_phi[0]) > 0.0) return pinned;
-    const double stiffness = stiffness_of(system_, face, segment_.cos_phi[0], segment_.sin_phi[0]);
-    const int zeros = zeros_on_border(normal_force, stiffness * length_rounding());
+    const double stiffness = stiffness_of(system_, face, c, s), damping = damping_of(system_, face, c, s);
+    const int zeros = zeros_on_border(normal_force, (stiffness + damping / duration_) * length_rounding());
     return zeros <= order_ && normal_force[zeros] > 0.0 ? zeros : pinned;
   }
 
