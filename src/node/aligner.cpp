@@ -164,7 +164,11 @@ void Aligner::wait_for_subscribers() {
   set_activity(Activity::paused);
   next_picture_ = {};
   publish_next(not_interrupted());
-  if (parameters_.autostart && activity_ == Activity::paused) run();
+  if (activity_ != Activity::paused) return;
+  if (parameters_.autostart)
+    run();
+  else
+    ROS_INFO("%s: waits at its start for ~start or a goal", stage_->scene.name.c_str());
 }
 
 /// For those who have joined; for those who ask where the part is now; and for those whose buffers are empty because
@@ -183,7 +187,14 @@ void Aligner::tend_standstill() {
 }
 
 void Aligner::run() {
-  pacer_.start(stage_->settings.config().time_scale, Clock::now(), stage_->seconds(stage_->trial.time()));
+  const double time_scale = stage_->settings.config().time_scale;
+  pacer_.start(time_scale, Clock::now(), stage_->seconds(stage_->trial.time()));
+  std::ostringstream pace;
+  if (time_scale > 0.0)
+    pace << "with time_scale " << time_scale;
+  else
+    pace << "as fast as it goes";
+  ROS_INFO("%s: runs from %s, %s", stage_->scene.name.c_str(), time_text().c_str(), pace.str().c_str());
   set_activity(Activity::running);
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <optional>
@@ -73,6 +74,8 @@ int fail(const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace vibratory_alignment;
+  // roscpp's log goes to stdout, which buffers whole blocks where it is no terminal: each line is to be seen at once
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGALRM, on_alarm);

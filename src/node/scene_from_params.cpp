@@ -53,8 +53,8 @@ Scene scene_from_params(const ros::NodeHandle& private_handle) {
     return load_scene_file(path);
   }
   if (!has_tree) {
-    throw SceneError(tree_name, {"no scene: load one with `rosparam load SCENE.yaml " + tree_name +
-                                 "` or set the parameter " + file_name + " to the path of one"});
+    throw SceneError(tree_name, {"no scene, or an empty file was loaded: load one with `rosparam load SCENE.yaml " +
+                                 tree_name + "` or set the parameter " + file_name + " to the path of one"});
   }
   XmlRpc::XmlRpcValue tree;
   private_handle.getParam("scene", tree);
