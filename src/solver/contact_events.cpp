@@ -276,7 +276,10 @@ class Search {
     } else {
       series_.push_series(segment_, face, d, g);
       for (int k = 0; k < order_; ++k) g[k] = -g[k];
-      const double time = first_fall(g, order_ - 1, segment_.duration, pins_[index].normal);
+      g[order_] = 0.0;
+      // a push of last digits is none
+      const bool is_none = pins_[index].normal == 1 && zeros_on_border(g, force_rounding(face)) > order_;
+      const double time = is_none ? kNoRoot : first_fall(g, order_ - 1, segment_.duration, pins_[index].normal);
       const bool turning = is_part_face(face) && !system_.isotropic;
       const bool corrects = (turning || segment_.coarse) && time > 0.0;
       offer(corrects ? reload_time(time, site, face, g) : time, EventKind::reload, site);
@@ -304,6 +307,13 @@ class Search {
     const double reach = std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width +
                          system_.base_distance + system_.slot_half_width;
     return std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + std::abs(segment_.omega[0]) * reach;
+  }
+
+  /// Last digits of k d + h d' at the start.
+  double force_rounding(Face face) const {
+    const double c = segment_.cos_phi[0], s = segment_.sin_phi[0];
+    return stiffness_of(system_, face, c, s) * length_rounding() +
+           damping_of(system_, face, c, s) * kLengthRounding * speed_at_start();
   }
 
   /// Last digits of lengths.
