@@ -294,7 +294,7 @@ class Search {
     const int pinned = pins_[index].normal;
     if (pinned != 1) return pinned;
     if (normal_force[0] > 0.0) return 0;
-    // what the last digits of lengths make of the powers is not where N begins to fall
+    // what the last digits of lengths, within the step, make of the powers is not where N begins to fall
     const double c = segment_.cos_phi[0], s = segment_.sin_phi[0];
     const Face face = segment_.contacts[index].face;
     const double stiffness = stiffness_of(system_, face, c, s), damping = damping_of(system_, face, c, s);
@@ -302,11 +302,15 @@ class Search {
     return zeros <= order_ && normal_force[zeros] > 0.0 ? zeros : pinned;
   }
 
+  /// Lengths that the places of points are made of.
+  double lengths() const {
+    return std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width + system_.base_distance +
+           system_.slot_half_width;
+  }
+
   /// Speed of the part's points at the start, at most.
   double speed_at_start() const {
-    const double reach = std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width +
-                         system_.base_distance + system_.slot_half_width;
-    return std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + std::abs(segment_.omega[0]) * reach;
+    return std::abs(segment_.vx[0]) + std::abs(segment_.vy[0]) + std::abs(segment_.omega[0]) * lengths();
   }
 
   /// Last digits of k d + h d' at the start.
@@ -317,10 +321,7 @@ class Search {
   }
 
   /// Last digits of lengths.
-  double length_rounding() const {
-    return kLengthRounding * (std::abs(segment_.x[0]) + std::abs(segment_.y[0]) + system_.half_width +
-                              system_.base_distance + system_.slot_half_width);
-  }
+  double length_rounding() const { return kLengthRounding * lengths(); }
 
   /// Of a point that is said to be outside, but is inside from the start by the error of the steps before (by last
   /// digits only where it is on a border): conditions of its region that it is leaving, or moves along, count as zero.

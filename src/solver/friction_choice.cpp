@@ -21,10 +21,6 @@ constexpr double kProbeTolerance = 1e-3;
 /// asked again.
 constexpr double kAllowances[] = {0.03, 1.0, 1e2, 1e4, 1e6};
 
-/// ... of which rounding of N has no more than this where T is held against its limit: beyond it T of any size would be
-/// within the limit on the stiffest base.
-constexpr double kMostLimitAllowance = 1e4;
-
 /// Error of a friction force at an event, relative to the truncation error of a step, and its bounds.
 constexpr double kLimitErrors = 1e4, kSmallestLimitError = 1e-9, kLargestLimitError = 1e-3;
 

@@ -12,9 +12,8 @@ namespace {
 /// Rounding of a coefficient relative to the largest term of its series.
 constexpr double kSeriesRounding = 4e-15;
 
-/// Rounding of the depth, which a stiff base turns into force, relative to the lengths that it is made of; and how many
-/// times as much is allowed at most: beyond it T of any size would be at its limit on the stiffest base.
-constexpr double kStateRounding = 6e-16, kMostStateAllowance = 1e4;
+/// Rounding of the depth, which a stiff base turns into force, relative to the lengths that it is made of.
+constexpr double kStateRounding = 6e-16;
 
 /// Largest |g_k| h^k.
 double largest_term(const Series& g, int order, double h) {
@@ -121,7 +120,7 @@ SeriesNoise series_noise(const System& system, const Segment& segment, double h,
     const double stiff = stiffness_of(system, face, c, s), damping = damping_of(system, face, c, s);
     noise.normal_force[i] = rounding * largest_term(contact.normal_force, order, h);
     noise.state_normal_force[i] =
-        std::min(allowance, kMostStateAllowance) * kStateRounding * (stiff * length + damping * speed);
+        std::min(allowance, kMostLimitAllowance) * kStateRounding * (stiff * length + damping * speed);
     const double tangential =
         system.friction * noise.normal_force[i] + rounding * largest_term(contact.tangential_force, order, h);
     const ContactKinematics& k = kinematics[i] = contact_kinematics(system, start, contact.site, face);

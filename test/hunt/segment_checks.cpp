@@ -19,8 +19,8 @@ constexpr double kDigits = 1e-13;
 constexpr double kTimeDigits = 4e-16, kPlaceDigits = 4e-16;
 constexpr double kSlipErrors = 1e3;     ///< V also holds what T was wrong by in the segments before
 constexpr double kForceDigits = 1e-15;  ///< forces that are in balance
-constexpr double kSharedForce =
-    4e-10;  ///< of T that contacts share, each one's (docs/hybrid_step.md "Rounding in these decisions")
+/// Of T that contacts share, each one's (docs/hybrid_step.md "Rounding in these decisions").
+constexpr double kSharedForce = 4e-10;
 constexpr double kFastestRecovery = 1e12;  ///< a base that recovers at this rate is taken to do so at once
 constexpr double kWorstCut = 1e-4;         ///< part of its terms that a force's series may leave out
 /// An implicit step fulfils the equations of motion at its end (but where an event has ended it at once, relative to

@@ -317,8 +317,6 @@ trial: {time_limit: 2}
   EXPECT_THROW(make_system(scene_of(turned)), SceneError);
 }
 
-// REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
-// x).
 // A base that is a hundred times as stiff along x: where the side of the tilted part becomes the face that an edge is
 // nearest to, the lift jumps from less than the load to more, and nothing balances.
 TEST(Equilibrium, is_not_where_the_forces_jump) {
@@ -346,6 +344,8 @@ trial: {time_limit: 3}
   EXPECT_LT(refused, 100);
 }
 
+// REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
+// x).
 TEST(Equilibrium, of_r1_is_its_closed_form) {
   const Scene scene =
       scene_of(plain, {"initial.x=0.2", "gripper.anchor.x=0.2", "gripper.anchor.phi=0.0", "friction.coefficient=0.2",
