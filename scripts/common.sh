@@ -32,7 +32,7 @@ run_packages=(
   python3-std-msgs python3-std-srvs python3-geometry-msgs python3-tf2-msgs python3-visualization-msgs
   python3-actionlib python3-actionlib-msgs
 )
-rviz_packages=(rviz librviz-dev)
+rviz_packages=(rviz librviz-dev qtbase5-dev)
 # with a virtual screen, and OpenGL without a graphics card
 test_packages=(
   librostest-dev python3-rostest python3-diagnostic-msgs libgtest-dev libgmock-dev

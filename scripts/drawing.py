@@ -61,7 +61,7 @@ def tidy(axes):
 
 def set_title(sheet, text):
     """Above all panels, letter by letter ($ begins no formula), in as many lines as it takes."""
-    sheet.suptitle(textwrap.fill(text, 70), fontsize=11, parse_math=False)
+    sheet.suptitle(textwrap.fill(text, 70).replace("$", r"\$"), fontsize=11)
 
 
 def widen_rounding(axes):
@@ -87,7 +87,7 @@ def draw_motion(panels, motion, force_note, time=r"$\tau$", units=None):
     """
     units = units or {}
     lines = (len(panels) + 1) // 2
-    sheet = plt.figure(figsize=(7.2, 1.75 * lines + 0.4), layout="constrained")
+    sheet = plt.figure(figsize=(7.2, 1.75 * lines + 0.4), constrained_layout=True)
     grid = sheet.add_gridspec(lines, 2)
     instants = motion["t"]
 

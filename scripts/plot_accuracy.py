@@ -30,19 +30,21 @@ def read_lines(path):
     with open(path, newline="") as file:
         for row in csv.DictReader(file):
             floor = float(row["reference_agreement"])
-            if not row["pose_error"]:
-                continue
-            point = (max(float(row["pose_error"]), 1e-17), 1e6 * float(row["cpu_seconds"]))
-            lines.setdefault(row["solver"], []).append(point)
+            if row["pose_error"]:
+                point = (float(row["pose_error"]), 1e6 * float(row["cpu_seconds"]))
+                lines.setdefault(row["solver"], []).append(point)
     return lines, floor
 
 
 def draw(lines, floor, title, target, kind):
-    figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
+    figure, axes = plt.subplots(figsize=(6.4, 5.0), constrained_layout=True)
+    # within the shaded part: how far below what the reference knows is not known either
+    least_drawn = 0.3 * floor if floor > 0.0 else 1e-17
     for solver, points in lines.items():
         colour, mark = STYLES.get(solver, ("#000000", "."))
         style = HOLLOW if solver == "auto" else SOLID
-        axes.loglog(*zip(*points), color=colour, marker=mark, label=solver, **style)
+        errors, times = zip(*points)
+        axes.loglog([max(error, least_drawn) for error in errors], times, color=colour, marker=mark, label=solver, **style)
     least, most = axes.get_xlim()
     if floor > least:
         axes.axvspan(least, min(floor, most), color="0.93", zorder=0, label="less than the reference knows")
@@ -51,7 +53,8 @@ def draw(lines, floor, title, target, kind):
     axes.set_ylabel("CPU time of a trial [µs]")
     set_title(figure, title)
     axes.grid(True, which="major", color="0.88", linewidth=0.6)
-    axes.legend(frameon=False)
+    # below the axes, where it covers no line
+    axes.legend(frameon=False, ncol=3, fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.13))
     figure.savefig(target, dpi=160, format=kind, metadata={"Date": None} if kind == "svg" else None)
 
 

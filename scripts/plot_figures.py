@@ -67,7 +67,7 @@ def draw_curves(figure, rows):
     curves = collections.OrderedDict()
     for row in rows:
         curves.setdefault(tuple(row[key] for key in figure["each"]), []).append(row)
-    sheet, axes = plt.subplots(figsize=(6.0, 4.0), layout="constrained")
+    sheet, axes = plt.subplots(figsize=(6.0, 4.0), constrained_layout=True)
     along = figure["along"]
     for number, (key, points) in enumerate(curves.items()):
         colour, mark = STYLES[number % len(STYLES)]
@@ -119,7 +119,7 @@ def draw_region(figure, rows):
     xs, ys = sorted({row[x] for row in rows}), sorted({row[y] for row in rows})
     share = {(row[x], row[y]): row["share"] for row in rows}
     field = [[share[a, b] for a in xs] for b in ys]
-    sheet, axes = plt.subplots(figsize=(6.0, 4.4), layout="constrained")
+    sheet, axes = plt.subplots(figsize=(6.0, 4.4), constrained_layout=True)
     shade = axes.pcolormesh(edges(xs), edges(ys), field, cmap="Blues", vmin=0.0, vmax=1.0, alpha=0.55, rasterized=True)
     unreliable = [[0.0 if value >= figure["share"] else 1.0 for value in line] for line in field]
     nothing = ListedColormap([(0, 0, 0, 0)])

@@ -146,7 +146,10 @@ def main():
         motion, outcome = read_bag(options.trial, options.node, options.si) if from_bag else read_csv(options.trial)
         if not motion["t"]:
             raise BadTrial("there is no motion in it")
-    except (BadTrial, OSError, UnicodeDecodeError, csv.Error) as error:
+    except (UnicodeDecodeError, csv.Error) as error:
+        print("align: %s: is no CSV file, and a bag is named *.bag (%s)" % (options.trial, error), file=sys.stderr)
+        sys.exit(2)
+    except (BadTrial, OSError) as error:
         print("align: %s: %s" % (options.trial, error), file=sys.stderr)
         sys.exit(2)
     try:

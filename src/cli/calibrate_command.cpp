@@ -1,6 +1,7 @@
 #include "cli/calibrate_command.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -54,9 +55,12 @@ class ProgressLines {
     if (now < next_) return;
     next_ = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kSecondsBetweenLines));
     const double seconds = std::chrono::duration<double>(now - begin_).count();
-    std::fprintf(stderr, "%6.0f s: %s, %s; best: shortfall %.3f, %s met\n", seconds,
-                 counted(progress.evaluations, "set").c_str(), counted(progress.trials, "trial").c_str(),
-                 progress.best_shortfall, counted(progress.best_met, "fact").c_str());
+    std::fprintf(stderr, "%6.0f s: %s, %s", seconds, counted(progress.evaluations, "set").c_str(),
+                 counted(progress.trials, "trial").c_str());
+    if (std::isfinite(progress.best_shortfall))
+      std::fprintf(stderr, "; best: shortfall %.3f, %s met", progress.best_shortfall,
+                   counted(progress.best_met, "fact").c_str());
+    std::fprintf(stderr, "\n");
   }
 
  private:

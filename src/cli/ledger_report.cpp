@@ -76,10 +76,12 @@ std::string list(const std::vector<std::string>& words) {
 }  // namespace
 
 std::string ledger_text(const FactBook& book, const std::vector<FactResult>& results) {
-  std::string text;
+  char line[256];
+  std::snprintf(line, sizeof line, "%-5s         %-*s %8s  %-12s %s\n", "fact", kNameWidth - 1,
+                "what the paper says, * missed", "value", "bound", "5 to 95 %");
+  std::string text = line;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Fact& fact = book.facts[i];
-    char line[256];
     std::snprintf(line, sizeof line, "%-5s %-7s", fact.id.c_str(), results[i].met ? "met" : "MISSED");
     text += line;
     bool first = true;

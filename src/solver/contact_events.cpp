@@ -35,6 +35,9 @@ constexpr double kSurelyLater = 1.0 + 1e-12;
 /// A step is looked along anew, up to the end that a contact sets it, where it is this much shorter.
 constexpr double kShorter = 0.9;
 
+/// How far beyond its limit T of a single contact that has stayed at it tells that it leaves it.
+constexpr double kBeyondLimit = 1e-11;
+
 /// Largest correction of the time at which a contact loads again, as a share of it, and how often it is corrected.
 constexpr double kMostReloadCorrection = 1e-3;
 constexpr int kReloadCorrections = 3;
@@ -218,9 +221,15 @@ class Search {
         for (int i = 0; i < 2; ++i) {
           const double sign = i == 0 ? 1.0 : -1.0;
           for (int k = 0; k < order_; ++k) g[k] = f * contact.normal_force[k] - sign * contact.tangential_force[k];
+          const double before = i == 0 ? kNoRoot : times.time[0];
           const int zeros = i == 0 ? pins.hold_plus : pins.hold_minus;
-          if (zeros < MotionSeries::kHeldPowers)
-            times.time[i] = fall_before(i == 0 ? kNoRoot : times.time[0], g, order_ - 1, zeros_of_limit(g, zeros));
+          if (zeros < MotionSeries::kHeldPowers) {
+            times.time[i] = fall_before(before, g, order_ - 1, zeros_of_limit(g, zeros));
+          } else if (segment_.loaded_count == 1) {
+            // at its limit as far as the decision looked, and left by what comes after
+            for (int k = 0; k < order_; ++k) g[k] += kBeyondLimit * f * contact.normal_force[k];
+            times.time[i] = fall_before(before, g, order_ - 1, zeros_of_force(site, contact.normal_force));
+          }
         }
         break;
       case Slip::regularized: {

@@ -176,6 +176,9 @@ class PlotTest(AlignTestCase):
         wrong = self.write("b.csv", "\n".join(lines[:2] + [lines[2].replace(",", ",high", 1)]))
         self.assert_refused(["plot", wrong, picture], "b.csv", "line 3: x: high", "must be a number")
         self.assert_refused(["plot", self.write("c.csv", lines[0] + "\n"), picture], "c.csv", "no motion in it")
+        with open(self.path("e.csv"), "wb") as file:
+            file.write(b"#ROSBAG V2.0\n\xa6\x00")
+        self.assert_refused(["plot", self.path("e.csv"), picture], "e.csv", "is no CSV file")
         self.assert_refused(["plot", self.write("d.bag", "no bag"), picture], "d.bag", "not a whole bag")
         self.assert_refused(["plot", self.bag, picture, "--node", "left"], "left", "/aligner")
         self.assert_refused(["plot", self.bag, picture, "--si"], "run.bag", "--si", "no scales")

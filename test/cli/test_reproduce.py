@@ -72,6 +72,7 @@ class ReproduceTest(AlignTestCase):
     def test_writes_ledger_and_figures(self):
         process = self.reproduce()
         self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertRegex(process.stdout, r"^fact +what the paper says.*value +bound +5 to 95 %\n")
         first, second = self.ledger()
         self.assertTrue(first["met"])
         self.assertFalse(second["met"])
