@@ -45,6 +45,13 @@ double wrap(double angle) {
   return angle < 0.0 ? angle + kTwoPiHigh : angle;
 }
 
+/// Sine or cosine of a phase, zero where the last digit of the phase makes it so: a force that begins at its peak has
+/// no slope.
+double at_zero(double value, double theta) {
+  constexpr double kHalfDigit = 1.2e-16;
+  return std::abs(value) <= kHalfDigit * theta ? 0.0 : value;
+}
+
 }  // namespace
 
 bool same_sweep(const Excitation& a, const Excitation& b) {
@@ -115,8 +122,8 @@ DriveForm Drive::form_at(const Instant& t) const {
       break;
   }
   if (form.amplitude != 0.0) {
-    form.sin_phase = std::sin(theta);
-    form.cos_phase = std::cos(theta);
+    form.sin_phase = at_zero(std::sin(theta), theta);
+    form.cos_phase = at_zero(std::cos(theta), theta);
   }
   return form;
 }

@@ -11,6 +11,9 @@ namespace {
 /// Rounding of V relative to the speeds that it is made of: left where contacts (nearly) hold the same motion.
 constexpr double kSpeedRounding = 1e-15;
 
+/// Of the part's speed: more than this is no last digit, though contacts of nearly the same lever make it of theirs.
+constexpr double kMostTakenOut = 1e-6;
+
 double reach_of(const Vec2& lever) { return std::abs(lever.x) + std::abs(lever.y); }
 
 }  // namespace
@@ -31,7 +34,15 @@ State take_out_slip(const System& system, const State& state, const ContactState
   }
   HoldingForces impulse;
   impulse.set(system, rows, count);
-  const HoldingForces::Answer change = impulse.hold(rhs, noise);
+  HoldingForces::Answer change = impulse.hold(rhs, noise);
+  const double reach = system.half_width + system.base_distance;
+  const auto size = [&](double x, double y, double phi) { return std::abs(x) + std::abs(y) + std::abs(phi) * reach; };
+  // what the contacts have in common only: V of two that have begun to part is not of last digits
+  if (change.told_apart &&
+      size(change.x, change.y, change.phi) > kMostTakenOut * size(state.vx, state.vy, state.omega)) {
+    noise.fill(INFINITY);
+    change = impulse.hold(rhs, noise);
+  }
   State result = state;
   result.vx += change.x;
   result.vy += change.y;

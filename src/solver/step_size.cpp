@@ -11,6 +11,11 @@ namespace vibratory_alignment {
 namespace {
 
 constexpr int kLeadingTerms = 4;
+/// log2 of how much larger than the last terms of a series, at the time that they give, the one before them is where
+/// they vanish. Where they do not it is (k/r)^2 as large, k the order and r the radians of a step.
+constexpr double kGap = 16.0;
+/// Of a step: series of fewer powers are those of a decision.
+constexpr int kLeastOrder = 8;
 /// Of a velocity: slower is at rest. To become as fast as anything that matters it would have to grow 138 times e-fold.
 constexpr double kRest = 1e-60;
 /// Of a velocity, beside what the part's speed and the forces of the contacts would make it: forces that hold an axis
@@ -22,18 +27,31 @@ constexpr int kMostOrder = 22;
 constexpr double kUnitRounding = 1e-16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// True where the term before the last two of a series is far larger than the one of these that gives the time: log2 of
+/// their sizes and of the time. The last two are none then. So it is in a function of t^3, as the tilt of a part is
+/// that only a ramp turns from rest: two of three terms vanish.
+bool is_gap(double before_last, double last, int powers_between, double time) {
+  return before_last > last + powers_between * time + kGap;
+}
+
 /// log2 of the time at which the terms `order` - 1 and `order` of v have both fallen to `tolerance` times the largest
-/// of the leading terms, of which those of v or of a scale are given.
+/// of the leading terms, of which those of v or of a scale are given. One that vanishes, as every second one may,
+/// allows any; where both do, the one before them tells.
 double log2_step(const double* leading_terms, const Series& v, int order, double log2_tolerance) {
-  double leading[kLeadingTerms], step[2];
+  double leading[kLeadingTerms];
   for (int j = 0; j < kLeadingTerms; ++j) leading[j] = log2_tolerance + rough_log2(std::abs(leading_terms[j]));
-  for (int i = 0; i < 2; ++i) {
-    const int k = order - i;
-    const double last = rough_log2(std::abs(v[k]));
-    step[i] = (leading[0] - last) * kInverse[k];
-    for (int j = 1; j < kLeadingTerms; ++j) step[i] = std::max(step[i], (leading[j] - last) * kInverse[k - j]);
-  }
-  return std::min(step[0], step[1]);
+  const auto time_of = [&](double size, int k) {
+    double time = (leading[0] - size) * kInverse[k];
+    for (int j = 1; j < kLeadingTerms; ++j) time = std::max(time, (leading[j] - size) * kInverse[k - j]);
+    return time;
+  };
+  const double last[2] = {rough_log2(std::abs(v[order])), rough_log2(std::abs(v[order - 1]))};
+  const double times[2] = {time_of(last[0], order), time_of(last[1], order - 1)};
+  const int least = times[0] < times[1] ? 0 : 1;
+  const double before = rough_log2(std::abs(v[order - 2]));
+  return order >= kLeastOrder && is_gap(before, last[least], 2 - least, times[least])
+             ? std::min(times[least], time_of(before, order - 2))
+             : times[least];
 }
 
 /// Likewise of T beside f N, to the power `order`.
@@ -104,12 +122,13 @@ double contact_step(const System& system, const Segment& segment, double toleran
 
 double pair_step(const PairSeries& series, int order, double tolerance) {
   const double log2_tolerance = rough_log2(tolerance);
-  double shortest = kInfinity;
-  for (int k = order - 1; k <= order; ++k) {
-    const double term = std::max(std::abs(series[k][0]), std::abs(series[k][1]));
-    if (term > 0.0) shortest = std::min(shortest, (log2_tolerance - rough_log2(term)) / k);
-  }
-  return rough_exp2(shortest);
+  const auto size_of = [&](int k) { return rough_log2(std::max(std::abs(series[k][0]), std::abs(series[k][1]))); };
+  const auto time_of = [&](double size, int k) { return (log2_tolerance - size) * kInverse[k]; };
+  const double time = std::min(time_of(size_of(order), order), time_of(size_of(order - 1), order - 1));
+  const double before = size_of(order - 2);
+  return rough_exp2(order >= kLeastOrder && is_gap(before, log2_tolerance, 2 - order, time)
+                        ? std::min(time, time_of(before, order - 2))
+                        : time);
 }
 
 double turned_place_step(const Segment& segment, const PairSeries& direction, double step, double tolerance) {
@@ -129,7 +148,7 @@ double turned_place_step(const Segment& segment, const PairSeries& direction, do
 
 int series_order(double tolerance) {
   const double digits = -std::log10(tolerance);
-  return std::clamp(static_cast<int>(std::ceil(7.0 + digits)), 8, kMostOrder);
+  return std::clamp(static_cast<int>(std::ceil(7.0 + digits)), kLeastOrder, kMostOrder);
 }
 
 int straight_series_order(double tolerance, double radians) {

@@ -98,6 +98,20 @@ TEST(Drive, sine_has_the_phase_of_the_definition) {
   }
 }
 
+// A force that begins at its peak has no slope, one that begins at zero no value, though the double next to pi/2 or pi is
+// not these; what is more than the last digit of the phase counts.
+TEST(Drive, a_quarter_turn_is_one) {
+  for (int quarters = 1; quarters <= 3; ++quarters) {
+    const double phase = quarters * (0.5 * kPi);
+    const auto small_part = [&](double off) {
+      const DriveForm form = Drive(excitation_of(Waveform::sine, 1.3, 20.0, phase + off), {}).form_at({});
+      return quarters == 2 ? form.sin_phase : form.cos_phase;
+    };
+    EXPECT_EQ(small_part(0.0), 0.0) << quarters;
+    EXPECT_NEAR(std::abs(small_part(4e-15)), 4e-15, 1e-15) << quarters;
+  }
+}
+
 // In doubles the phase would be off by 1e-9 by then.
 TEST(Drive, phase_does_not_drift_in_a_million_periods) {
   for (const double frequency : {20.0, 7.3, 0.1, 1.0 / 3.0, 1234.5678})

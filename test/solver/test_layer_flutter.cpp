@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <complex>
 #include <random>
 
 #include "../support/runs.h"
@@ -49,8 +50,9 @@ double growth_of_pairs(const ForceJacobian& jacobian, double rate) {
   motion.bottomLeftCorner<3, 3>() = jacobian.by_position;
   motion.bottomRightCorner<3, 3>() = jacobian.by_velocity;
   double most = -INFINITY;
-  for (const auto& s : motion.eigenvalues())
-    if (s.imag() != 0.0 && std::abs(s) > rate) most = std::max(most, s.real());
+  const Eigen::Matrix<std::complex<double>, 6, 1> rates = motion.eigenvalues();
+  for (int i = 0; i < 6; ++i)
+    if (rates[i].imag() != 0.0 && std::abs(rates[i]) > rate) most = std::max(most, rates[i].real());
   return most;
 }
 
