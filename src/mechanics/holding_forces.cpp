@@ -83,7 +83,9 @@ HoldingForces::Factor HoldingForces::factorize(Decomposition& decomposed, double
   Eigen::CompleteOrthogonalDecomposition<Tall> decomposition;
   decomposition.setThreshold(0.0);
   decomposition.compute(tall);
-  const Inverse inverse = decomposition.pseudoInverse().transpose() * q.transpose();
+  using Wide = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3>;
+  const Wide pseudo_inverse = decomposition.solve(Eigen::Matrix3d::Identity());
+  const Inverse inverse = pseudo_inverse.transpose() * q.transpose();
   for (int a = 0; a < 3; ++a) factor.inverse.row(axes[a]) = inverse.row(a);
   if (factor.rank < count_) share_alike(singular, factor);
   return factor;
