@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -91,10 +92,14 @@ YAML::Node parse_yaml(const std::string& text, const std::string& source) {
   if (count_marks(text) > most_marks)
     throw SceneError(
         source, {"is too large: at most " + std::to_string(most_marks) + " keys, list entries and brackets are read"});
+  // yaml-cpp 0.6 hangs on these, and on a colon at the very end
+  const std::size_t hangs = text.find(":]");
+  if (hangs != std::string::npos)
+    throw SceneError(source, {"line " + std::to_string(1 + std::count(text.begin(), text.begin() + hangs, '\n')) +
+                              ": there must be a blank between : and ]"});
   YAML::Node tree;
   int documents = 0;
   try {
-    // yaml-cpp 0.6.2 hangs on a colon at the very end.
     documents = DocumentCounter(text + "\n").count();
     if (documents == 1) tree.reset(YAML::Load(text + "\n"));
   } catch (const YAML::Exception& error) {

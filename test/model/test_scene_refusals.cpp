@@ -342,6 +342,7 @@ TEST_F(BadFile, NotYaml) {
   expect_text_refused("a: *nowhere\n", "line 1");
   expect_text_refused(least + "\n---\n" + least, "one YAML document");
   for (const char* stray : {",", ", f\n", "a: 1\n...\n,", "a: {b: 1}\n,"}) expect_text_refused(stray, "YAML");
+  expect_text_refused("a: 1\nb: {c:] 2}\n", "line 2: there must be a blank between : and ]");
   for (const char* unfinished : {"{:", "[:", "{a:", "a: {b:", "{# ke\ny{:"}) expect_text_refused(unfinished, "");
 }
 
