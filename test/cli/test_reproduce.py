@@ -106,8 +106,9 @@ class ReproduceTest(AlignTestCase):
         self.reproduce("marked")
         with open(self.path("out/marked.svg")) as file:
             text = file.read()
-        first = [float(re.search('<use [^>]*x="([0-9.]*)"[^>]*fill: #ffffff; stroke: ' + colour, text).group(1))
-                 for colour in ("#0072b2", "#d55e00")]
+        marks = re.findall("<use [^>]*>", text)
+        first = [next(float(re.search(r'\bx="([0-9.]*)"', mark).group(1)) for mark in marks
+                      if re.search("fill: ?#ffffff; ?stroke: ?" + colour, mark)) for colour in ("#0072b2", "#d55e00")]
         self.assertGreater(first[1], first[0])
         self.assertLessEqual(first[1] - first[0], 4.5001)
 
