@@ -44,7 +44,8 @@ def draw(lines, floor, title, target, kind):
         colour, mark = STYLES.get(solver, ("#000000", "."))
         style = HOLLOW if solver == "auto" else SOLID
         errors, times = zip(*points)
-        axes.loglog([max(error, least_drawn) for error in errors], times, color=colour, marker=mark, label=solver, **style)
+        drawn = [max(error, least_drawn) for error in errors]
+        axes.loglog(drawn, times, color=colour, marker=mark, label=solver, **style)
     least, most = axes.get_xlim()
     if floor > least:
         axes.axvspan(least, min(floor, most), color="0.93", zorder=0, label="less than the reference knows")

@@ -28,15 +28,18 @@ class BadTrial(Exception):
 def read_csv(path):
     """Columns of what `align trial --csv` writes, and no words about the outcome."""
     motion = {column: [] for column in COLUMNS}
-    with open(path, newline="") as file:
-        rows = csv.DictReader(file)
-        present = rows.fieldnames or []
-        for column in COLUMNS:
-            if column not in present:
-                raise BadTrial("has no column %s; there must be %s" % (column, ", ".join(COLUMNS)))
-        for row in rows:
+    try:
+        with open(path, newline="") as file:
+            rows = csv.DictReader(file)
+            present = rows.fieldnames or []
             for column in COLUMNS:
-                motion[column].append(number(row[column], "line %d: %s" % (rows.line_num, column)))
+                if column not in present:
+                    raise BadTrial("has no column %s; there must be %s" % (column, ", ".join(COLUMNS)))
+            for row in rows:
+                for column in COLUMNS:
+                    motion[column].append(number(row[column], "line %d: %s" % (rows.line_num, column)))
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise BadTrial("is no CSV file, and a bag is named *.bag (%s)" % error)
     return motion, ""
 
 
@@ -146,9 +149,6 @@ def main():
         motion, outcome = read_bag(options.trial, options.node, options.si) if from_bag else read_csv(options.trial)
         if not motion["t"]:
             raise BadTrial("there is no motion in it")
-    except (UnicodeDecodeError, csv.Error) as error:
-        print("align: %s: is no CSV file, and a bag is named *.bag (%s)" % (options.trial, error), file=sys.stderr)
-        sys.exit(2)
     except (BadTrial, OSError) as error:
         print("align: %s: %s" % (options.trial, error), file=sys.stderr)
         sys.exit(2)

@@ -47,7 +47,7 @@ double wrap(double angle) {
 
 /// Sine or cosine of a phase, zero where the last digit of the phase makes it so: a force that begins at its peak has
 /// no slope.
-double at_zero(double value, double theta) {
+double zero_within_rounding(double value, double theta) {
   constexpr double kHalfDigit = 1.2e-16;
   return std::abs(value) <= kHalfDigit * theta ? 0.0 : value;
 }
@@ -122,8 +122,8 @@ DriveForm Drive::form_at(const Instant& t) const {
       break;
   }
   if (form.amplitude != 0.0) {
-    form.sin_phase = at_zero(std::sin(theta), theta);
-    form.cos_phase = at_zero(std::cos(theta), theta);
+    form.sin_phase = zero_within_rounding(std::sin(theta), theta);
+    form.cos_phase = zero_within_rounding(std::cos(theta), theta);
   }
   return form;
 }

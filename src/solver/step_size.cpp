@@ -27,12 +27,10 @@ constexpr int kMostOrder = 22;
 constexpr double kUnitRounding = 1e-16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// True where the term before the last two of a series is far larger than the one of these that gives the time: log2 of
-/// their sizes and of the time. The last two are none then. So it is in a function of t^3, as the tilt of a part is
-/// that only a ramp turns from rest: two of three terms vanish.
-bool is_gap(double before_last, double last, int powers_between, double time) {
-  return before_last > last + powers_between * time + kGap;
-}
+/// True where, at the time that the last two terms of a series give, the one before them is far larger (log2 of sizes):
+/// the last two are none then. So it is in a function of t^3, as the tilt of a part is that only a ramp turns from
+/// rest: two of three terms vanish.
+bool is_gap(double before_last, double last) { return before_last > last + kGap; }
 
 /// log2 of the time at which the terms `order` - 1 and `order` of v have both fallen to `tolerance` times the largest
 /// of the leading terms, of which those of v or of a scale are given. One that vanishes, as every second one may,
@@ -48,10 +46,9 @@ double log2_step(const double* leading_terms, const Series& v, int order, double
   const double last[2] = {rough_log2(std::abs(v[order])), rough_log2(std::abs(v[order - 1]))};
   const double times[2] = {time_of(last[0], order), time_of(last[1], order - 1)};
   const int least = times[0] < times[1] ? 0 : 1;
-  const double before = rough_log2(std::abs(v[order - 2]));
-  return order >= kLeastOrder && is_gap(before, last[least], 2 - least, times[least])
-             ? std::min(times[least], time_of(before, order - 2))
-             : times[least];
+  const double time = times[least], before = rough_log2(std::abs(v[order - 2]));
+  const bool gap = is_gap(before + (order - 2) * time, last[least] + (order - least) * time);
+  return gap && order >= kLeastOrder ? std::min(time, time_of(before, order - 2)) : time;
 }
 
 /// Likewise of T beside f N, to the power `order`.
@@ -126,9 +123,8 @@ double pair_step(const PairSeries& series, int order, double tolerance) {
   const auto time_of = [&](double size, int k) { return (log2_tolerance - size) * kInverse[k]; };
   const double time = std::min(time_of(size_of(order), order), time_of(size_of(order - 1), order - 1));
   const double before = size_of(order - 2);
-  return rough_exp2(order >= kLeastOrder && is_gap(before, log2_tolerance, 2 - order, time)
-                        ? std::min(time, time_of(before, order - 2))
-                        : time);
+  const bool gap = is_gap(before + (order - 2) * time, log2_tolerance);
+  return rough_exp2(gap && order >= kLeastOrder ? std::min(time, time_of(before, order - 2)) : time);
 }
 
 double turned_place_step(const Segment& segment, const PairSeries& direction, double step, double tolerance) {

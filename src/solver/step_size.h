@@ -10,7 +10,8 @@ namespace vibratory_alignment {
 constexpr double kSmallestTolerance = 1e-16;
 
 /// Longest time over which the last two terms of every velocity's series stay below `tolerance` times that velocity's
-/// largest leading term: the truncation error relative to each axis' own motion, whatever its scale.
+/// largest leading term: the truncation error relative to each axis' own motion, whatever its scale. Where the last two
+/// vanish, as in a function of t^3, the one before them counts; so it does in all of these.
 /// Likewise for T of sticking contacts, relative to T and to the force f N that it may reach.
 /// Infinity for what is at rest, or held by contacts: what rounding of their forces leaves has no time scale.
 [[gnu::noinline]] double series_step(const System& system, const Segment& segment, double tolerance);
