@@ -80,6 +80,19 @@ TEST(BaseRecovery, of_a_segment_is_that_of_the_closed_form) {
   }
 }
 
+// A damper of h gives way at k/h: at once where there is none, or where that is beyond anything to be seen.
+TEST(BaseRecovery, leaves_nothing_where_it_is_at_once) {
+  const auto left = [](const char* damping, double deformation = kLeft) {
+    const System system = make_system(test::scene_of(test::plain, {"base.stiffness.y=4e3", damping}));
+    return left_behind(system, deformation, Face::bottom, 1.0, 0.0).deformation;
+  };
+  EXPECT_EQ(left("base.damping.y=0"), 0.0);
+  EXPECT_EQ(left("base.damping.y=3e-9"), 0.0);
+  EXPECT_EQ(left("base.damping.y=5e-9"), kLeft);
+  EXPECT_EQ(left("base.damping.y=20"), kLeft);
+  EXPECT_EQ(left("base.damping.y=20", 1e-19), 0.0) << "less than the last digit of any place";
+}
+
 TEST(BaseRecovery, is_even_where_nothing_turns_or_all_directions_are_alike) {
   const System system = turning_system();
   EXPECT_FALSE(recovers_evenly(system, Face::bottom));

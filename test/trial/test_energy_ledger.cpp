@@ -129,6 +129,26 @@ TEST(EnergyLedger, of_a_segment_that_only_rounding_sees) {
   EXPECT_NEAR(account.ledger().base_loss / (kDamping * kSpeed * kSpeed * kTime), 1.0, 1e-6);
 }
 
+// A part at its anchor that is pushed by as much as the last digit of its place: the energy there is that digit,
+// squared, whatever the work. An imbalance of energies that are known counts, however small they are.
+TEST(EnergyLedger, of_a_trial_that_ends_where_it_began) {
+  const System system = make_system(scene_of(test::ball, {"gripper={anchor: {y: 2.0}}"}));
+  const auto residual_after = [&](double way) {
+    Segment g;
+    g.duration = g.order = 1;
+    g.begin.y = g.end.y = 2.0;
+    g.end.y += way;
+    g.y = {2.0, way};
+    g.vy = {way};
+    g.drive_y = {0.125 * way};  // a quarter of the work that the spring takes
+    EnergyAccount account(system);
+    account.book(g);
+    return account.ledger().residual;
+  };
+  EXPECT_EQ(residual_after(std::nextafter(2.0, 3.0) - 2.0), 0.0);
+  EXPECT_NEAR(residual_after(std::ldexp(1.0, -40)), 3.0, 1e-6);
+}
+
 // An implicit step passes over a ring, which its velocities may still show at its start: the damper takes no more than
 // N says, (N - k d) d'.
 TEST(EnergyLedger, of_an_implicit_step) {
