@@ -38,9 +38,10 @@ constexpr double kShorter = 0.9;
 /// How far beyond its limit T of a single contact that has stayed at it tells that it leaves it.
 constexpr double kBeyondLimit = 1e-11;
 
-/// Largest correction of the time at which a contact loads again, as a share of it, and how often it is corrected.
-constexpr double kMostReloadCorrection = 1e-3;
-constexpr int kReloadCorrections = 3;
+/// Largest correction of the time at which a contact loads again, as a share of it; how often it is corrected, and the
+/// share of the one before that a correction may be.
+constexpr double kMostReloadCorrection = 0.1, kLeastFall = 0.5;
+constexpr int kReloadCorrections = 4;
 
 /// Factor on rounding below which V is taken as zero throughout.
 constexpr double kRestAllowance = 10.0;
@@ -258,12 +259,24 @@ class Search {
   /// chosen, and what an implicit step cuts off of cos phi and sin phi shows in d': the time at which they load again
   /// is corrected by the state there. `g`: -(k d + h d').
   double reload_time(double found, Site site, Face face, const Series& g) const {
-    double slope = 0.0, time = found;
+    const auto push_at = [&](double t) {
+      const PlacedState placed(state_at(segment_, t));
+      return contact_point(system_, placed, site, face, site_point(system_, placed, site)).push();
+    };
+    double slope = 0.0;
     for (int k = order_ - 1; k >= 1; --k) slope = slope * found + k * g[k];
-    for (int i = 0; i < kReloadCorrections; ++i) {
-      const PlacedState placed(state_at(segment_, time));
-      time += contact_point(system_, placed, site, face, site_point(system_, placed, site)).push() / slope;
-      if (!(std::abs(time - found) <= kMostReloadCorrection * found)) return found;
+    double time = found, push = push_at(found), step = push / slope;
+    if (!(std::abs(step) <= kMostReloadCorrection * found)) return found;
+    // the slope of what was cut off is not known: secants, whose steps have to fall
+    for (int i = 0; i < kReloadCorrections && step != 0.0; ++i) {
+      time += step;
+      const double next = push_at(time), secant_step = next == 0.0 ? 0.0 : step * next / (push - next);
+      if (!(std::abs(secant_step) <= kLeastFall * std::abs(step))) {
+        if (std::abs(next) > std::abs(push)) time -= step;
+        break;
+      }
+      push = next;
+      step = secant_step;
     }
     return std::min(time, segment_.duration);
   }
