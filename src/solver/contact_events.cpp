@@ -256,8 +256,8 @@ class Search {
   }
 
   /// k(n) and h(n) that turn with the part fall off more slowly in the series than the motion by which the step is
-  /// chosen, and what an implicit step cuts off of cos phi and sin phi shows in d': the time at which they load again
-  /// is corrected by the state there. `g`: -(k d + h d').
+  /// chosen, and what is cut off of cos phi and sin phi shows in d': the time at which a contact loads again is
+  /// corrected by the states there. `g`: -(k d + h d').
   double reload_time(double found, Site site, Face face, const Series& g) const {
     const auto push_at = [&](double t) {
       const PlacedState placed(state_at(segment_, t));
@@ -302,9 +302,7 @@ class Search {
       // a push of last digits is none
       const bool is_none = pins_[index].normal == 1 && zeros_on_border(g, force_rounding(face)) > order_;
       const double time = is_none ? kNoRoot : first_fall(g, order_ - 1, segment_.duration, pins_[index].normal);
-      const bool turning = is_part_face(face) && !system_.isotropic;
-      const bool corrects = (turning || segment_.coarse) && time > 0.0;
-      offer(corrects ? reload_time(time, site, face, g) : time, EventKind::reload, site);
+      offer(time > 0.0 ? reload_time(time, site, face, g) : time, EventKind::reload, site);
     }
     guard_limits(site, face);
   }
