@@ -20,9 +20,9 @@ struct SeriesNoise {
   bool is_finite() const;
 };
 
-/// Factor on rounding up to which limits of T are asked: beyond it T of any size would be at its limit on the stiffest
-/// base.
-constexpr double kMostLimitAllowance = 1e4;
+/// Factor on rounding up to which limits of T are asked: beyond it T of any size would be at its limit on a stiff base,
+/// where N is about to be zero.
+constexpr double kMostLimitAllowance = 1e2;
 
 /// `allowance`: factor on all errors; on those of the state at most kMostLimitAllowance.
 SeriesNoise series_noise(const System& system, const Segment& segment, double h, double allowance);
