@@ -40,7 +40,7 @@ constexpr double kBeyondLimit = 1e-11;
 
 /// Largest correction of the time at which a contact loads again, as a share of it; how often it is corrected, and the
 /// share of the one before that a correction may be.
-constexpr double kMostReloadCorrection = 0.1, kLeastFall = 0.5;
+constexpr double kMostReloadCorrection = 0.1, kMostOfLastCorrection = 0.5;
 constexpr int kReloadCorrections = 4;
 
 /// Factor on rounding below which V is taken as zero throughout.
@@ -271,7 +271,7 @@ class Search {
     for (int i = 0; i < kReloadCorrections && step != 0.0; ++i) {
       time += step;
       const double next = push_at(time), secant_step = next == 0.0 ? 0.0 : step * next / (push - next);
-      if (!(std::abs(secant_step) <= kLeastFall * std::abs(step))) {
+      if (!(std::abs(secant_step) <= kMostOfLastCorrection * std::abs(step))) {
         if (std::abs(next) > std::abs(push)) time -= step;
         break;
       }
