@@ -111,6 +111,8 @@ def outcome_text(result):
     text = result.outcome.replace("_", " ")
     if result.duration != result.duration or not result.time:  # NaN: it did not align
         return text
+    if result.outcome != "aligned":  # the trial went on
+        text += "; aligned"
     text += " after τ = %.4g" % (result.duration * result.tau / result.time)
     return text + (" (%.4g ms)" % (1e3 * result.duration) if result.has_scales else "")
 

@@ -34,10 +34,6 @@ void set_entry(Entries& entries, const std::string& name, Value value) {
   entries.back().value = value;
 }
 
-bool is_empty(const dynamic_reconfigure::Config& config) {
-  return config.bools.empty() && config.ints.empty() && config.doubles.empty();
-}
-
 std::string number(double value) {
   std::ostringstream text;
   text << value;
@@ -84,23 +80,25 @@ void AlignerLink::subscribe() {
 
 void AlignerLink::trigger(const std::string& service) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  triggers_.push_back(service);
+  commands_.emplace_back(Trigger{service});
 }
 
 void AlignerLink::load_scene(const std::string& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  scene_ = scene;
+  commands_.emplace_back(Load{scene});
 }
 
 void AlignerLink::change(const std::string& setting, double value) {
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.changing = true;
+  if (commands_.empty() || !std::holds_alternative<Changes>(commands_.back())) commands_.emplace_back(Changes());
+  Changes& changes = std::get<Changes>(commands_.back());
   if (setting == "enabled") {
-    set_entry(changes_.bools, setting, static_cast<std::uint8_t>(value != 0.0));
+    set_entry(changes.bools, setting, static_cast<std::uint8_t>(value != 0.0));
   } else if (setting == "waveform") {
-    set_entry(changes_.ints, setting, static_cast<std::int32_t>(value));
+    set_entry(changes.ints, setting, static_cast<std::int32_t>(value));
   } else {
-    set_entry(changes_.doubles, setting, value);
+    set_entry(changes.doubles, setting, value);
   }
 }
 
@@ -183,9 +181,7 @@ void AlignerLink::look_for_node() {
       last_arrival_ = {};
     }
     if (!there) {
-      triggers_.clear();
-      scene_.reset();
-      changes_ = {};
+      commands_.clear();
       status_.changing = false;
     }
   }
@@ -197,42 +193,36 @@ void AlignerLink::look_for_node() {
 
 /// False when nothing waits.
 bool AlignerLink::carry_out_next() {
-  std::string service;
-  std::optional<std::string> scene;
-  dynamic_reconfigure::Config changes;
+  Command command;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!is_empty(changes_)) {
-      std::swap(changes, changes_);
-    } else if (!triggers_.empty()) {
-      service = triggers_.front();
-      triggers_.erase(triggers_.begin());
-    } else if (scene_) {
-      std::swap(scene, scene_);
-    } else {
-      return false;
-    }
+    if (commands_.empty()) return false;
+    command = std::move(commands_.front());
+    commands_.pop_front();
   }
-  if (!is_empty(changes)) {
-    carry_out(changes);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    status_.changing = !is_empty(changes_);
-  } else if (scene) {
-    LoadScene load;
-    load.request.scene = *scene;
-    if (call("load_scene", load)) tell(!load.response.success, load.response.message);
-  } else {
-    std_srvs::Trigger message;
-    if (call(service, message)) tell(!message.response.success, message.response.message);
-  }
+  std::visit([this](const auto& kind) { carry_out(kind); }, command);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto is_change = [](const Command& waiting) { return std::holds_alternative<Changes>(waiting); };
+  status_.changing = std::any_of(commands_.begin(), commands_.end(), is_change);
   return true;
 }
 
-void AlignerLink::carry_out(const dynamic_reconfigure::Config& changes) {
+void AlignerLink::carry_out(const Trigger& trigger) {
+  std_srvs::Trigger message;
+  if (call(trigger.service, message)) tell(!message.response.success, message.response.message);
+}
+
+void AlignerLink::carry_out(const Load& load) {
+  LoadScene message;
+  message.request.scene = load.scene;
+  if (call("load_scene", message)) tell(!message.response.success, message.response.message);
+}
+
+void AlignerLink::carry_out(const Changes& changes) {
   dynamic_reconfigure::Reconfigure message;
   message.request.config = changes;
   if (!call("set_parameters", message)) return;
-  const dynamic_reconfigure::Config& answer = message.response.config;
+  const Changes& answer = message.response.config;
   std::string words;
   tell_departures(changes.doubles, answer.doubles, words);
   tell_departures(changes.ints, answer.ints, words);

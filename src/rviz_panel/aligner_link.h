@@ -1,16 +1,19 @@
 // The panel's link to an aligner: knows whether the node is there, keeps what it publishes, and hands commands to it.
 //
 // Everything that can wait for the node or the master happens in a thread of its own; what the panel calls returns at
-// once. A node that was away and comes back, with its master or without, is found within a second or two.
+// once, and the node has the commands in the order in which they were given. A node that was away and comes back, with
+// its master or without, is found within a second or two.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include <dynamic_reconfigure/Config.h>
@@ -51,8 +54,8 @@ class AlignerLink {
   /// Scene of the package or path of a file.
   void load_scene(const std::string& scene);
 
-  /// Changes one setting; the others stay as they are, whoever has changed them. Of several changes that wait the last
-  /// one counts.
+  /// Changes one setting; the others stay as they are, whoever has changed them. Changes that wait one after the other
+  /// go together, and of several of one setting the last one counts.
   void change(const std::string& setting, double value);
 
   Status status();
@@ -62,12 +65,22 @@ class AlignerLink {
 
  private:
   using Clock = std::chrono::steady_clock;
+  struct Trigger {
+    std::string service;
+  };
+  struct Load {
+    std::string scene;
+  };
+  using Changes = dynamic_reconfigure::Config;
+  using Command = std::variant<Trigger, Load, Changes>;
 
   void work();
   void subscribe();
   void look_for_node();
   bool carry_out_next();
-  void carry_out(const dynamic_reconfigure::Config& changes);
+  void carry_out(const Trigger& trigger);
+  void carry_out(const Load& load);
+  void carry_out(const Changes& changes);
   template <class Service>
   bool call(const std::string& service, Service& message);
   void tell(bool refused, const std::string& answer);
@@ -87,10 +100,8 @@ class AlignerLink {
   Status status_;
   std::vector<AlignerState> samples_;
   Clock::time_point last_arrival_{}, arrival_before_{};
-  std::vector<std::string> triggers_;
-  std::optional<std::string> scene_;
-  dynamic_reconfigure::Config changes_;
-  ros::ServiceClient client_;  ///< of the call that is under way
+  std::deque<Command> commands_;  ///< that wait
+  ros::ServiceClient client_;     ///< of the call that is under way
   std::optional<Clock::time_point> busy_since_;
 
   std::atomic<bool> ending_{false};

@@ -49,12 +49,14 @@ QString quantity(double value, const char* unit, bool has_unit) {
   return text;
 }
 
-/// "aligned after 16.4 ms, impact mode, 15 impacts, at most 36.4 N"
+/// "aligned after 16.4 ms, impact mode, 15 impacts, at most 36.4 N"; "inserted at 25 ms, aligned after 20.3 ms, ..."
 QString words_of(const AlignerResult& result) {
   QString words = QString::fromStdString(result.outcome).replace('_', ' ');
   if (result.outcome == "failed") return words + ": " + QString::fromStdString(result.failure);
-  const double time = std::isnan(result.duration) ? result.time : result.duration;
-  words += (std::isnan(result.duration) ? " at " : " after ") + quantity(time, "s", result.has_scales);
+  if (result.outcome != "aligned") words += " at " + quantity(result.time, "s", result.has_scales);
+  if (!std::isnan(result.duration))
+    words += (result.outcome == "aligned" ? "" : ", aligned") +
+             (" after " + quantity(result.duration, "s", result.has_scales));
   if (result.mode != "none") words += ", " + QString::fromStdString(result.mode) + " mode";
   unsigned impacts = 0;
   for (const unsigned count : result.impacts) impacts += count;

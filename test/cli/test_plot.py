@@ -1,6 +1,7 @@
 """`align plot`: pictures of CSV files and bags, and what it refuses."""
 
 import csv
+import json
 import os
 import re
 import signal
@@ -97,6 +98,16 @@ class PlotTest(AlignTestCase):
                 self.assertIn("<!-- %s -->" % words, texts[-1])
             self.assert_curves(picture, rows)
         self.assertEqual(texts[0], texts[1], "the same trial gives the same picture")
+
+    def test_the_title_of_a_bag_tells_outcome_and_alignment_apart(self):
+        for scene in ("fig2", "insertion"):
+            process = self.align("trial", scene, "--bag", self.bag, "--json")
+            result = json.loads(process.stdout)
+            self.plot(self.bag, self.path("run.svg"))
+            after = "after τ = %.4g" % result["duration"]
+            words = {"aligned": "fig2: aligned " + after, "inserted": "insertion: inserted; aligned " + after}
+            self.assertIn(words[result["outcome"]], " ".join(self.words(self.path("run.svg"))))
+        self.assertGreater(result["final"]["t"], 1.1 * result["duration"], "the trial went on")
 
     def test_a_title_is_drawn_as_it_is_written_and_in_lines_that_fit(self):
         title = r"Costs a $ or $\nope$, " + 20 * "pressed harder " + "and again"

@@ -212,6 +212,39 @@ TEST_F(PanelTest, LoadsAnotherScene) {
   EXPECT_TRUE(wait_until([this] { return says("presence", "running: small"); })) << presence();
 }
 
+TEST_F(PanelTest, TellsWhenATrialEndedThatWentOnAfterAlignment) {
+  auto& scene = child<QComboBox>(panel_, "scene");
+  scene.setCurrentText("insertion");
+  click(panel_, "load");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "paused: insertion"); })) << presence();
+  change_elsewhere("time_scale", 0.0);
+  click(panel_, "start");
+  ASSERT_TRUE(wait_until([this] { return says("presence", "ended"); })) << presence();
+  EXPECT_TRUE(wait_until([this] { return says("outcome", "inserted at") && says("outcome", ", aligned after"); }))
+      << child<QLabel>(panel_, "outcome").text().toStdString();
+  change_elsewhere("time_scale", 0.005);
+  scene.setCurrentText(SMALL_SCENE);
+  click(panel_, "load");
+  EXPECT_TRUE(wait_until([this] { return says("presence", "paused: small"); })) << presence();
+}
+
+TEST_F(PanelTest, TheNodeHasCommandsInTheOrderInWhichTheyWereGiven) {
+  auto& scene = child<QComboBox>(panel_, "scene");
+  ::kill(static_cast<pid_t>(node->pid()), SIGSTOP);
+  click(panel_, "step");  // under way until the node goes on; all others wait
+  QTest::qWait(100);
+  scene.setCurrentText("gripper_si");
+  click(panel_, "load");
+  type("amplitude", "6.5");
+  QTest::keyClick(number("amplitude").findChild<QLineEdit*>(), Qt::Key_Enter);
+  ::kill(static_cast<pid_t>(node->pid()), SIGCONT);
+  ASSERT_TRUE(wait_until([this] { return says("presence", "paused: gripper_si"); })) << presence();
+  EXPECT_TRUE(wait_until([] { return in_node<double>("amplitude") == 6.5; })) << in_node<double>("amplitude");
+  scene.setCurrentText(SMALL_SCENE);
+  click(panel_, "load");
+  EXPECT_TRUE(wait_until([this] { return says("presence", "paused: small"); })) << presence();
+}
+
 TEST_F(PanelTest, ANodeThatHangsDoesNotHoldUpThePanel) {
   ::kill(static_cast<pid_t>(node->pid()), SIGSTOP);
   click(panel_, "start");  // would wait here for ever
