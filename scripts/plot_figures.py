@@ -16,7 +16,7 @@ import sys
 import textwrap
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-import interrupts  # noqa: E402, F401  (before what takes its time)
+import interrupts  # noqa: E402  (before what takes its time)
 from drawing import AT_SAMPLES, draw_motion, plt, set_style, set_title, tidy  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
 from matplotlib.transforms import ScaledTranslation  # noqa: E402
@@ -154,11 +154,12 @@ def save(sheet, path, **options):
     """Under its name there is what was there before, or the whole picture."""
     target = path.resolve()
     part = target.with_name("%s.%d.part" % (target.name, os.getpid()))
-    try:
-        sheet.savefig(part, format=path.suffix[1:], **options)
-        part.replace(target)
-    finally:
-        part.unlink(missing_ok=True)
+    with interrupts.held_back():
+        try:
+            sheet.savefig(part, format=path.suffix[1:], **options)
+            part.replace(target)
+        finally:
+            part.unlink(missing_ok=True)
 
 
 def main():

@@ -184,6 +184,10 @@ int run_accuracy(const AccuracyCommandOptions& options) {
     std::fprintf(stderr, "align: interrupted; no file is written\n");
     return 128 + interrupt.signal();
   }
+  if (csv) {
+    write_csv(csv->temporary(), csv->path(), scene, runs, *reference);
+    csv->commit();
+  }
   // stdout may have the rows of --csv
   std::FILE* const out = is_stdout(options.csv) ? stderr : stdout;
   print_heading(out, scene, *reference);
@@ -191,10 +195,6 @@ int run_accuracy(const AccuracyCommandOptions& options) {
   print_advice(out, scene, runs, *reference);
   if (std::fflush(out) != 0 || std::ferror(out) != 0)
     throw OutputError(out == stdout ? "stdout" : "stderr", "the table is lost");
-  if (csv) {
-    write_csv(csv->temporary(), csv->path(), scene, runs, *reference);
-    csv->commit();
-  }
   if (picture) {
     const TemporaryFile table(options.plot);
     write_csv(table.path(), table.path(), scene, runs, *reference);

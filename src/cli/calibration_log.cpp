@@ -3,10 +3,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/errors.h"
+#include "cli/whole_lines.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -47,27 +47,27 @@ CalibrationLog::~CalibrationLog() {
 
 /// Reads what the file has, and cuts off a last line without an end.
 void CalibrationLog::take_over(const std::string& fingerprint, bool resume) {
+  const std::string name = "--log: " + path_, head = head_line(fingerprint);
+  const auto refuse_other = [&] {
+    throw UsageError(name + (resume ? ": is of another calibration (its files or this version differ)"
+                                    : ": is a file already; give another name, or --resume to go on with it"));
+  };
   std::error_code none;
-  if (std::filesystem::exists(path_, none) && !std::filesystem::is_regular_file(path_, none))
-    throw UsageError("--log: " + path_ + ": is no file");
-  std::ifstream file(path_, std::ios::binary);
+  if (!std::filesystem::exists(path_, none)) return;
+  if (!std::filesystem::is_regular_file(path_, none)) throw UsageError(name + ": is no file");
+  WholeLines lines(name, path_);
   std::string line;
-  std::uintmax_t whole = 0;
-  for (std::size_t number = 1; file && std::getline(file, line) && !file.eof(); ++number) {
-    if (number == 1 && line != head_line(fingerprint))
-      throw UsageError("--log: " + path_ +
-                       (resume ? ": is of another calibration (its files or this version differ)"
-                               : ": is a file already; give another name, or --resume to go on with it"));
+  for (std::size_t number = 1; lines.next(line); ++number) {
+    if (number == 1 && line != head) refuse_other();
     if (number > 1 && !resume)
-      throw UsageError("--log: " + path_ + ": has answers of this calibration already; --resume goes on with them");
+      throw UsageError(name + ": has answers of this calibration already; --resume goes on with them");
     if (number > 1) read_answer(line, number);
-    whole += line.size() + 1;
   }
-  file.close();
-  if (std::filesystem::exists(path_, none) && std::filesystem::file_size(path_) > whole) {
-    if (whole == 0 && !resume) throw UsageError("--log: " + path_ + ": is a file already; give another name");
-    std::filesystem::resize_file(path_, whole);
-  }
+  // of what is cut off, not even the first line may be whole
+  const std::string start = WholeLines(name, path_).take(head.size() + 1);
+  const bool is_torn_head = resume && head.compare(0, start.size(), start) == 0;
+  if (lines.bytes() == 0 && !start.empty() && !is_torn_head) refuse_other();
+  if (std::filesystem::file_size(path_) > lines.bytes()) std::filesystem::resize_file(path_, lines.bytes());
 }
 
 void CalibrationLog::read_answer(const std::string& line, std::size_t number) {

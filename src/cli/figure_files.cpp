@@ -40,8 +40,8 @@ class CsvFile {
   WholeFile file_;
 };
 
-/// Of the first trial of the study.
-void write_motion(const std::filesystem::path& path, const Study& study) {
+/// Of the first trial of the study. Without a file when it is not to go on.
+void write_motion(const std::filesystem::path& path, const Study& study, const std::function<bool()>& go_on) {
   const Scene scene = TrialScenes(study).at(0);
   const OutputUnits units = output_units(scene);
   SimulationOptions options;
@@ -50,7 +50,7 @@ void write_motion(const std::filesystem::path& path, const Study& study) {
   Sampler sampler(simulation, scene.shortest_period() / kSamplesPerPeriod, true);
   CsvFile file(path, "t,x,y,phi,vx,vy,omega,n1,n2");
   Sample sample;
-  while (sampler.next(sample)) {
+  while (go_on() && sampler.next(sample, go_on)) {
     const State& s = sample.state;
     const auto force = [&](Site site) {
       return sample.contacts[static_cast<std::size_t>(site)].normal_force * units.force;
@@ -58,6 +58,7 @@ void write_motion(const std::filesystem::path& path, const Study& study) {
     file.line({sample.time * units.time, s.x * units.length, s.y * units.length, s.phi, s.vx * units.velocity,
                s.vy * units.velocity, s.omega * units.angular_velocity, force(Site::a1), force(Site::a2)});
   }
+  if (!sampler.finished()) return;
   if (simulation.result().outcome == Outcome::failed)
     throw std::runtime_error(study.name + ": the trial failed: " + simulation.result().failure);
   file.finish();
@@ -120,21 +121,24 @@ json description(const Figure& figure) {
 
 }  // namespace
 
-void write_figure_files(const std::filesystem::path& folder, const FactBook& book,
-                        const std::map<std::string, Study>& studies, const Tables& tables) {
+bool write_figure_files(const std::filesystem::path& folder, const FactBook& book,
+                        const std::map<std::string, Study>& studies, const Tables& tables,
+                        const std::function<bool()>& go_on) {
   json descriptions = json::array();
   for (const Figure& figure : book.figures) {
     const std::filesystem::path path = folder / (figure.name + ".csv");
     switch (figure.kind) {
-      case Figure::Kind::motion: write_motion(path, studies.at(figure.measure.table.study)); break;
+      case Figure::Kind::motion: write_motion(path, studies.at(figure.measure.table.study), go_on); break;
       case Figure::Kind::curves: write_curves(path, figure, tables); break;
       case Figure::Kind::region: write_region(path, figure, tables); break;
     }
+    if (!go_on()) return false;
     descriptions.push_back(description(figure));
   }
   WholeFile file("--output", (folder / "figures.json").string());
   file.text() << descriptions.dump(2) << '\n';
   file.finish();
+  return true;
 }
 
 }  // namespace vibratory_alignment

@@ -4,7 +4,8 @@
 
 namespace vibratory_alignment {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second signal ends the process at once. One at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second signal ends the process at once, unless it
+/// comes within half a second: that is how long tidying up may take. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -1,8 +1,12 @@
 // `align`, the command line of the package: picks the subcommand, turns exceptions into messages and exit status.
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -46,6 +50,19 @@ constexpr char kFooter[] =
     "Exit status: 0 it ran, whatever the outcome; 1 it failed while running; 2 bad usage or bad scene.";
 
 constexpr std::size_t kOptionColumn = 28;
+
+/// True when whoever read stdout has closed it.
+bool stdout_is_closed() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
+/// Ends as a process does that writes to a pipe which nobody reads: without a word.
+[[noreturn]] void end_by_closed_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  std::abort();
+}
 
 int fail(int status, const char* message) {
   std::fprintf(stderr, "align: %s\n", message);
@@ -126,7 +143,9 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace vibratory_alignment;
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, which says what is lost
+  // A file that may not grow and a pipe that nobody reads are errors of the write: what is unfinished is tidied up.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const SceneError& error) {
@@ -134,6 +153,9 @@ int main(int argc, char** argv) {
     return kExitUsage;
   } catch (const UsageError& error) {
     return fail(kExitUsage, error.what());
+  } catch (const OutputError& error) {
+    if (stdout_is_closed()) end_by_closed_pipe();
+    return fail(kExitFailed, error.what());
   } catch (const std::exception& error) {
     return fail(kExitFailed, error.what());
   }

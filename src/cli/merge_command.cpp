@@ -1,9 +1,7 @@
 #include "cli/merge_command.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -18,6 +16,7 @@
 #include "cli/row_text.h"
 #include "cli/sweep_head.h"
 #include "cli/whole_file.h"
+#include "cli/whole_lines.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -39,8 +38,7 @@ struct MergeCommandOptions {
 class ShardFile {
  public:
   /// Reads the two lines before the rows. Throws UsageError.
-  explicit ShardFile(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-    if (!file_) refuse(std::string("cannot be read: ") + std::strerror(errno));
+  explicit ShardFile(const std::string& path) : path_(path), file_(path, path) {
     std::string line;
     const std::optional<SweepHead> head = next(line) ? parse_head(line) : std::nullopt;
     if (!head || !next(header_)) refuse("is no file of `align sweep --csv`");
@@ -55,7 +53,7 @@ class ShardFile {
   /// The next whole line.
   bool next(std::string& line) {
     ++line_number_;
-    return std::getline(file_, line) && !file_.eof();
+    return file_.next(line);
   }
 
   /// The row of a trial, which must be the next. Throws UsageError.
@@ -72,15 +70,14 @@ class ShardFile {
 
   /// Throws UsageError unless all has been read.
   void check_end() {
-    std::string line;
-    if (std::getline(file_, line)) refuse("has more lines than the shard has trials: the file was changed");
+    if (!file_.take(1).empty()) refuse("has more lines than the shard has trials: the file was changed");
   }
 
   [[noreturn]] void refuse(const std::string& reason) const { throw UsageError(path_ + ": " + reason); }
 
  private:
   std::string path_;
-  std::ifstream file_;
+  WholeLines file_;
   SweepHead head_;
   std::string header_;
   std::size_t column_count_ = 0;

@@ -34,6 +34,8 @@ namespace {
 
 constexpr int kResamples = 200;
 
+constexpr char kNothingWritten[] = "no ledger and no figure is written";
+
 /// For --quick: a look that takes a tenth of the time.
 constexpr Thinning kQuick = {4, 3};
 
@@ -137,6 +139,12 @@ Tables run(const FactSuite& suite, FactRunOptions& run_options, const InterruptG
   return run_fact_studies(suite, run_options);
 }
 
+/// Exit status of a run that a signal has ended, once it is told what there is not.
+int interrupted(const InterruptGuard& interrupt, const char* missing) {
+  std::fprintf(stderr, "align: interrupted; %s\n", missing);
+  return 128 + interrupt.signal();
+}
+
 int run_command(const ReproduceCommandOptions& options) {
   const FactSuite suite = load(options);
   const std::vector<NamedFile> outputs = outputs_of(options, suite);
@@ -161,23 +169,21 @@ int run_command(const ReproduceCommandOptions& options) {
     throw UsageError(refusal.what());
   } catch (const std::runtime_error&) {
     if (interrupt.signal() == 0) throw;
-    std::fprintf(stderr, "align: interrupted; no ledger and no figure is written\n");
-    return 128 + interrupt.signal();
+    return interrupted(interrupt, kNothingWritten);
   }
   const std::vector<FactResult> results = judge_all(suite.book, tables, kResamples);
+  if (interrupt.signal() != 0) return interrupted(interrupt, kNothingWritten);
   const std::filesystem::path folder = options.output;
   write(folder / "ledger.md", ledger_markdown(suite.book, results));
   write(folder / "ledger.json", ledger_json(suite.book, results));
-  write_figure_files(folder, suite.book, studies, tables);
+  if (!write_figure_files(folder, suite.book, studies, tables, [&] { return interrupt.signal() == 0; }))
+    return interrupted(interrupt, "the ledger is written, not all figures are");
   // before the pictures, which may fail or be interrupted
   std::cout << ledger_text(suite.book, results) << "Files in " << folder.string() << std::endl;
   if (!std::cout) throw OutputError("stdout", "the ledger is lost");
   if (!options.no_pictures) {
     require_script("plot_figures.py", {path_word(folder.string())}, "pictures", interrupt);
-    if (interrupt.signal() != 0) {
-      std::fprintf(stderr, "align: interrupted; not all pictures are drawn\n");
-      return 128 + interrupt.signal();
-    }
+    if (interrupt.signal() != 0) return interrupted(interrupt, "not all pictures are drawn");
   }
 
   const std::vector<std::string> missed = missed_unexpectedly(suite.book, results);

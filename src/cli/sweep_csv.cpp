@@ -5,59 +5,33 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "cli/counted.h"
 #include "cli/errors.h"
 #include "cli/row_text.h"
+#include "cli/whole_lines.h"
 
 namespace vibratory_alignment {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the lines of a file that end with a line end.
-class WholeLines {
- public:
-  explicit WholeLines(const std::string& path) : file_(path, std::ios::binary) {}
-
-  bool next(std::string& line) {
-    if (!std::getline(file_, line) || file_.eof()) return false;
-    bytes_ += line.size() + 1;
-    return true;
-  }
-
-  /// Of the lines read so far.
-  std::uintmax_t bytes() const { return bytes_; }
-
- private:
-  std::ifstream file_;
-  std::uintmax_t bytes_ = 0;
-};
-
-/// The start of a file that may be torn within it.
-std::string start_of(const std::string& path, std::size_t bytes) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(bytes, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(bytes));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
+WholeLines lines_of(const std::string& path) { return WholeLines("--csv: " + path, path); }
 
 /// Whether a sweep, and nothing else, may have begun it.
 bool may_be_of_a_sweep(const std::string& path) {
-  const std::string mark = "# align sweep ", found = start_of(path, mark.size());
+  const std::string mark = "# align sweep ", found = lines_of(path).take(mark.size());
   return found == mark.substr(0, found.size());
 }
 
 /// The first line of a sweep's file; none if it is none.
 std::optional<SweepHead> head_of(const std::string& path) {
   std::string line;
-  return WholeLines(path).next(line) ? parse_head(line) : std::nullopt;
+  return lines_of(path).next(line) ? parse_head(line) : std::nullopt;
 }
 
 bool holds_rows_of_a_sweep(const std::string& path) {
-  WholeLines lines(path);
+  WholeLines lines = lines_of(path);
   std::string line;
   return lines.next(line) && parse_head(line) && lines.next(line) && lines.next(line);
 }
@@ -119,6 +93,7 @@ void SweepCsv::refuse(const std::string& path, const std::string& reason) const 
 
 /// The whole file of another shard of the same study is no older result.
 void SweepCsv::refuse_other_shard(const std::string& path) const {
+  if (!fs::exists(path)) return;
   const std::optional<SweepHead> old = head_of(path);
   if (old && old->fingerprint == head_.fingerprint && shard_text(old->shard) != shard_text(head_.shard))
     refuse(path,
@@ -135,13 +110,13 @@ void SweepCsv::begin_anew() {
 
 /// Reads what the file has of this sweep; returns the length of it, 0 if not even the first lines are whole.
 std::uintmax_t SweepCsv::take_over(const std::string& path, const SeeRow& see_row) {
-  const std::string expected = begin(), found = start_of(path, expected.size());
+  const std::string expected = begin(), found = lines_of(path).take(expected.size());
   if (found != expected.substr(0, found.size()))
     refuse(path,
            "is of another study or shard, or the study, its scene or `align` has changed: it cannot be continued. "
            "To begin anew, remove it");
   if (found.size() < expected.size()) return 0;
-  WholeLines lines(path);
+  WholeLines lines = lines_of(path);
   std::string line;
   lines.next(line);
   lines.next(line);

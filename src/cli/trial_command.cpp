@@ -175,11 +175,9 @@ class Recorder {
 
   /// The run is whole: the files get their names. Without it they leave nothing. Throws std::runtime_error.
   void finish(const TrialResult& result) {
+    if (bag_) bag_->finish(result);
     if (csv_) csv_->finish();
-    if (bag_) {
-      bag_->finish(result);
-      bag_path_->commit();
-    }
+    if (bag_path_) bag_path_->commit();
   }
 
  private:
@@ -207,10 +205,11 @@ void simulate(Simulation& simulation, Recorder& recorder, double interval, doubl
   }
   Sampler sampler(simulation, interval, true);
   Sample sample;
-  while (interrupt.signal() == 0 && sampler.next(sample)) {
-    recorder.write(sample);
-    show(progress, sample.time * unit, end * unit);
-  }
+  const auto go_on = [&] {
+    show(progress, simulation.time() * unit, end * unit);
+    return interrupt.signal() == 0;
+  };
+  while (go_on() && sampler.next(sample, go_on)) recorder.write(sample);
 }
 
 int run_trial(const TrialCommandOptions& options) {

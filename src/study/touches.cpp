@@ -18,6 +18,8 @@
 namespace vibratory_alignment {
 namespace {
 
+constexpr long kSegmentsUnasked = 1000;
+
 /// Follows the contacts of a trial, segment by segment. Dimensionless.
 class TouchLog {
  public:
@@ -108,12 +110,15 @@ constexpr const char* kTouchColumns[] = {
 
 }  // namespace
 
-std::vector<Touch> touches_of(const Scene& scene) {
+std::vector<Touch> touches_of(const Scene& scene, const std::function<bool()>& go_on) {
   SimulationOptions options;
   options.energy = false;
   Simulation simulation(scene, options);
   TouchLog log(simulation.system());
-  while (simulation.advance()) log.book(simulation.segment());
+  for (long segments = 0; simulation.advance(); ++segments) {
+    if (segments % kSegmentsUnasked == 0 && go_on && !go_on()) throw std::runtime_error("interrupted");
+    log.book(simulation.segment());
+  }
   std::vector<Touch> touches = log.finish();
   for (Touch& touch : touches) scale(touch, output_units(scene));
   return touches;
@@ -132,10 +137,9 @@ Table touch_table(const Study& study, const std::function<bool()>& go_on) {
   Table table = touch_columns(study);
   TrialScenes scenes(study);
   for (std::size_t index = 0; index < trial_count(study); ++index) {
-    if (go_on && !go_on()) throw std::runtime_error("interrupted");
     std::vector<Touch> touches;
     try {
-      touches = touches_of(scenes.at(index));
+      touches = touches_of(scenes.at(index), go_on);
     } catch (const SceneError&) {
       continue;
     }

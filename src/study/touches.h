@@ -28,13 +28,14 @@ struct Touch {
 };
 
 /// The touches of a trial of the scene, in the order of their ends; with the one it starts in and the one it ends in.
-/// Throws SceneError and std::invalid_argument like Simulation; a trial that fails gives those until then.
-std::vector<Touch> touches_of(const Scene& scene);
+/// Throws SceneError and std::invalid_argument like Simulation; a trial that fails gives those until then. `go_on` is
+/// asked every thousand segments; throws std::runtime_error when it says no.
+std::vector<Touch> touches_of(const Scene& scene, const std::function<bool()>& go_on = {});
 
 /// The touches of all trials of a study as a table: index, sample and varied values of the trial; a1, a2, b1, b2 (0 or
 /// 1: where it is); time, contact_time, gap, peak_force, peak_before, normal_impulse, friction_impulse, and the state
-/// x ... omega at its start. Trials whose scene is refused have none. `go_on` is asked before every trial; throws
-/// std::runtime_error when it ends the table.
+/// x ... omega at its start. Trials whose scene is refused have none. `go_on` is asked before every trial
+/// and within long ones; throws std::runtime_error when it ends the table.
 Table touch_table(const Study& study, const std::function<bool()>& go_on = {});
 
 /// The same table without its rows.

@@ -89,6 +89,14 @@ class AccuracyTest(AlignTestCase):
         self.assertEqual(process.returncode, 1)
         self.assertIn("stdout", process.stderr)
 
+    def test_the_file_is_there_though_nobody_reads_the_table(self):
+        read_end, write_end = os.pipe()
+        os.close(read_end)
+        process = self.align("accuracy", self.scene(), "--solvers", "event", "--csv", "a.csv", stdout=write_end)
+        os.close(write_end)
+        self.assertEqual((process.returncode, process.stderr), (-signal.SIGPIPE, ""))
+        self.assertEqual(sorted(os.listdir(self.directory)), ["a.csv", "small.yaml"])
+
     def test_a_picture_that_cannot_be_written_is_told(self):
         os.symlink("/dev/full", self.path("full.png"))
         process = self.align("accuracy", self.scene(), "--solvers", "event", "--plot", self.path("full.png"))

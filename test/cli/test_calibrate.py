@@ -140,8 +140,18 @@ class CalibrateTest(AlignTestCase):
         self.write("log.jsonl", "someone's notes\n")
         self.assertIn("is a file already", self.calibrate("--log", log, status=2).stderr)
         self.assertEqual(self.read("log.jsonl"), "someone's notes\n")
+        self.write("log.jsonl", "notes without an end")
+        for resume in ([], ["--resume"]):
+            self.calibrate("--log", log, *resume, status=2)
+            self.assertEqual(self.read("log.jsonl"), "notes without an end")
         self.assertIn("--log", self.calibrate("--resume", status=2).stderr)
         self.assertIn("cannot be written", self.calibrate("--log", self.path("no/such/log"), status=2).stderr)
+
+    @unittest.skipUnless(os.path.exists("/proc/self/mem"), "a regular file that can be opened and not read")
+    def test_an_error_of_reading_is_not_the_end_of_the_log(self):
+        os.symlink("/proc/self/mem", self.path("log.jsonl"))
+        process = self.calibrate("--log", self.path("log.jsonl"), "--resume", status=2)
+        self.assertIn("log.jsonl: cannot be read: Input/output error", process.stderr)
 
     def test_says_when_the_log_cannot_be_written(self):
         self.assertIn("/dev/full: is no file", self.calibrate("--log", "/dev/full", status=2).stderr)

@@ -43,6 +43,16 @@ class HardScenesTest(AlignTestCase):
         self.assertEqual(len(rows), 2)
         return dict(zip(rows[0], rows[1]))
 
+    def test_table_takes_no_crash_for_a_run_that_lasts_too_long(self):
+        crash = self.write("crash", "#!/bin/sh\nkill -SEGV $$\n")
+        os.chmod(crash, 0o755)
+        script = os.path.join(SOURCE_ROOT, "scripts", "hard_cases")
+        process = subprocess.run([sys.executable, script, "--align", crash, "--only", "coulomb_oscillator"],
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertNotIn("stopped after", process.stdout)
+        self.assertIn("ended by signal 11", process.stderr)
+
     # closed form: the exact solvers pass, the creep of rk4 does not
     def test_table_tells_right_from_wrong(self):
         row = self.table_row("coulomb_oscillator")

@@ -58,6 +58,8 @@ class MergeTest(SweepTestCase):
     def test_what_is_wrong_with_the_shards_is_told_by_name(self):
         names = self.shards(3)
         self.assert_no_merge([names[0], names[2]], "missing: shard 2/3")
+        self.assert_no_merge([names[0], "nowhere.csv"], "nowhere.csv: cannot be read: No such file")
+        self.assert_no_merge([names[0], "."], ".: cannot be read: Is a directory")
         self.assert_no_merge([names[1]], "missing: shard 1/3, 3/3")
         self.write("copy.csv", self.bytes_of(names[1]))
         self.assert_no_merge(names + ["copy.csv"], "copy.csv: is shard 2/3", names[1])

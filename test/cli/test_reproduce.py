@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 import unittest
 
 from align_test_case import SMALL_SCENE, SOURCE_ROOT, AlignTestCase
@@ -193,6 +194,46 @@ figures:
                              environment={"PYTHONPATH": self.path("modules")})
         self.assertEqual(process.returncode, 1)
         self.assertIn("1 of 2 facts met", process.stdout)
+
+    def test_a_picture_is_whole_before_a_signal_ends_the_drawing(self):
+        code = """
+import os, pathlib, signal, sys
+sys.path.insert(0, sys.argv[1])
+import plot_figures
+class Sheet:
+    def savefig(self, path, **options):
+        path.write_text("begun")
+        os.kill(os.getpid(), int(sys.argv[2]))
+        path.write_text("whole")
+plot_figures.save(Sheet(), pathlib.Path("picture.svg"))
+print("goes on")
+"""
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            process = subprocess.run([sys.executable, "-c", code, os.path.join(SOURCE_ROOT, "scripts"), str(int(number))],
+                                     cwd=self.directory, capture_output=True, text=True, timeout=60)
+            self.assertEqual((process.returncode, process.stdout), (-number, ""), process.stderr)
+            self.assertEqual(os.listdir(self.directory), ["picture.svg"])
+            with open(self.path("picture.svg")) as file:
+                self.assertEqual(file.read(), "whole")
+
+    def test_an_interrupt_while_data_of_figures_are_written(self):
+        self.scene("long.yaml", solver={"name": "rk4", "step": 1e-9}, trial={"time_limit": 1e6},
+                   initial={"x": 0.2, "y": 5.0}, excitation={"amplitude": 0.0, "frequency": 20.0})
+        self.write("endless.yaml", "scene: long.yaml\n")
+        facts = FACTS.replace("study: small}", "study: endless}", 1)
+        process = self.reproduce("curve", "--no-pictures", facts=facts)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        os.remove(self.path("out/ledger.md"))
+        process = subprocess.Popen([self.align_path, "reproduce", "--facts", "facts.yaml", "--output", "out", "--no-pictures"],
+                                   cwd=self.directory, stderr=subprocess.PIPE, universal_newlines=True)
+        self.addCleanup(process.kill)
+        while process.poll() is None and not os.path.exists(self.path("out/ledger.md")):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        self.assertIn("align: interrupted; the ledger is written, not all figures are", messages)
+        self.assertEqual([name for name in os.listdir(self.path("out")) if "motion" in name], [])
 
     def contents(self):
         """Of the files that were written: name -> bytes."""

@@ -121,6 +121,26 @@ class ResumeTest(SweepTestCase):
         self.assertEqual(self.bytes_of("out.csv"), b"my notes\n")
         self.assertFalse(os.path.exists(self.path("out.csv.part")))
 
+    def test_rows_that_cannot_be_read_are_not_lost(self):
+        nobody = 65534
+        preexec = None if os.geteuid() != 0 else lambda: (os.setgid(nobody), os.setuid(nobody))
+        try:
+            may_run = self.align("--version", preexec_fn=preexec).returncode == 0
+        except (OSError, subprocess.SubprocessError):
+            may_run = False
+        if not may_run:
+            self.skipTest("another user may not run align here")
+        part = self.whole[: len(self.whole) // 2]
+        self.write("out.csv.part", part)
+        os.chmod(self.directory, 0o777)
+        os.chmod(self.path("out.csv.part"), 0o222)
+        for resume in (["--resume"], []):
+            process = self.align("sweep", "study.yaml", "--csv", "out.csv", *resume, preexec_fn=preexec)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("--csv: out.csv.part: cannot be read: Permission denied", process.stderr)
+        os.chmod(self.path("out.csv.part"), 0o600)
+        self.assertEqual(self.bytes_of("out.csv.part"), part)
+
     def test_without_it_rows_are_not_lost(self):
         part = self.whole[: len(self.whole) // 2]
         self.write("out.csv.part", part)

@@ -184,11 +184,11 @@ class LostFileTest(AlignTestCase):
         process = self.align("trial", self.scene(), "--csv", "/dev/full")
         self.assertIn("No space left on device", process.stderr)
 
-    def begin_endless(self, *arguments, command=()):
+    def begin_endless(self, *arguments, command=(), sample="0.01"):
         """A trial that runs until it is ended; its files have been begun when this returns."""
         before = len(os.listdir(self.directory))
         process = subprocess.Popen(
-            list(command) + [self.align_path, "trial", "small.yaml", "--until", "1e6", "--sample", "0.01"]
+            list(command) + [self.align_path, "trial", "small.yaml", "--until", "1e6", "--sample", sample]
             + list(arguments), cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.kill)
         deadline = time.monotonic() + 60
@@ -208,12 +208,31 @@ class LostFileTest(AlignTestCase):
             with self.subTest(number):
                 process = self.begin_endless("--csv", "run.csv", "--bag", "run.bag")
                 process.send_signal(number)
+                process.send_signal(number)  # as `timeout` sends one to the process and one to its group
                 stdout, stderr = process.communicate(timeout=30)
                 self.assertEqual(process.returncode, 128 + number)
                 self.assertEqual(stdout, b"")
                 self.assertIn(b"interrupted", stderr)
                 self.assertEqual(sorted(os.listdir(self.directory)), ["run.csv", "small.yaml"])
                 self.assertEqual(self.text_of("run.csv"), "old")
+
+    def test_an_interrupt_does_not_wait_for_the_next_sample(self):
+        self.scene(excitation={"amplitude": 0.0, "frequency": 20.0}, initial={"x": 0.2, "y": 5.0})
+        process = self.begin_endless("--csv", "run.csv", "--solver", "rk4", "--step", "1e-9", sample="1e4")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+
+    def test_a_closed_stdout_leaves_nothing_unfinished(self):
+        self.scene()
+        for arguments, files in ((["--csv", "/dev/stdout", "--bag", "run.bag"], ["small.yaml"]),
+                                 (["--csv", "run.csv"], ["run.csv", "small.yaml"])):
+            read_end, write_end = os.pipe()
+            os.close(read_end)
+            process = self.align("trial", "small.yaml", *arguments, stdout=write_end)
+            os.close(write_end)
+            self.assertEqual((process.returncode, process.stderr), (-signal.SIGPIPE, ""))
+            self.assertEqual(sorted(os.listdir(self.directory)), files)
 
     def test_a_run_under_nohup_outlives_its_terminal(self):
         self.scene()

@@ -65,6 +65,15 @@ TEST(Touches, add_up_to_the_row_of_the_trial) {
   }
 }
 
+// One trial of a ball that nothing brings to rest.
+TEST(Touches, are_not_asked_for_to_the_end_of_a_long_trial) {
+  const Scene scene =
+      test::scene_of(test::ball, {"base.damping.y=0", "trial.time_limit=1e9", "solver={name: rk4, step: 1.0e-3}"});
+  int asked = 0;
+  EXPECT_THROW(touches_of(scene, [&] { return ++asked < 3; }), std::runtime_error);
+  EXPECT_EQ(asked, 3);
+}
+
 TEST(TouchTable, has_the_values_of_the_trial_in_each_row) {
   const Study study = test::study_of(R"(
 set: {trial.time_limit: 6, base.damping.y: 0}
