@@ -11,14 +11,19 @@ inline constexpr double kFinestAccuracy = 1e-9, kCoarsestAccuracy = 0.1;
 /// The tolerance is this part of the accuracy: impacts let an error grow.
 inline constexpr double kToleranceShare = 1e-2;
 
-/// `auto` instead of `event` where the base reacts this many times as fast as it is excited.
+/// `auto` instead of `event` where base, tanh layer or gripper answer this many times as fast as the part is excited.
 inline constexpr double kStiffRatio = 500.0;
 
-/// How many times faster than the fastest excitation the part moves on the base, at most: max(sqrt(k G), h G) over the
-/// largest angular frequency, G = 1/m + (a^2 + b^2)/mu, the mobility of the part's farthest point.
-double contact_rate_ratio(const Scene& scene);
+/// Rate at which a dimensionless part moves on the base, at most: max(sqrt(k G), h G), G = 1/m + (a^2 + b^2)/mu, the
+/// mobility of the part's farthest point.
+double contact_rate(const Scene& scene);
 
-/// The error-controlled solver for a dimensionless scene: `event`, or `auto` on a stiff base (docs/solvers.md).
+/// Rate at which V in the tanh layer follows what drives it, at most, under the forces that stand on the part:
+/// f N G/eps, N = press + weight + amplitudes along y; 0 without a layer.
+double layer_rate(const Scene& scene);
+
+/// The error-controlled solver for a dimensionless scene: `event`, or `auto` where one of these rates or of those of
+/// the gripper (sqrt(k/m) and h/m of each axis) is more than kStiffRatio nu (docs/solvers.md).
 const char* solver_for_accuracy(const Scene& scene);
 
 /// Step of a solver with a fixed step where none is given, in radians of the fastest that the part may be moved by.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
@@ -15,8 +16,11 @@ namespace {
 constexpr double kReferenceTolerance = 1e-13, kSecondTolerance = 1e-11;
 
 /// Settings of the study: decades of the tolerance, quarters of the step.
-constexpr double kCoarsestTolerance = 1e-1, kFinestTolerance = 1e-12;
+constexpr double kTolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
 constexpr int kSteps = 7;
+
+/// In periods of the fastest excitation, or of 1 rad per unit of time where that is faster.
+constexpr double kCoarsestStep = 1e-2;
 
 /// Repetitions of a run that is timed, in all and one after the other before the other runs have their turn: the
 /// clock of a computer changes within seconds, and so meets all runs alike.
@@ -67,13 +71,13 @@ double pose_difference(const State& a, const State& b) {
 }
 
 /// Coarse to fine.
-std::vector<double> settings_of(const Scene& scene, bool fixed_step, double step_share) {
+std::vector<double> settings_of(const Scene& scene, bool fixed_step) {
   std::vector<double> settings;
   if (fixed_step) {
-    double step = step_share * kTwoPi / std::max(1.0, scene.fastest_excitation());
+    double step = kCoarsestStep * kTwoPi / std::max(1.0, scene.fastest_excitation());
     for (int i = 0; i < kSteps; ++i, step /= 4.0) settings.push_back(step);
   } else {
-    for (double t = kCoarsestTolerance; t > 0.9 * kFinestTolerance; t /= 10.0) settings.push_back(t);
+    settings.assign(std::begin(kTolerances), std::end(kTolerances));
   }
   return settings;
 }
@@ -190,7 +194,7 @@ AccuracyReference find_reference(const Scene& scene, const GoOn& go_on) {
 /// True for a solver that this build has.
 bool is_built(const Scene& scene, const SolverName& solver) {
   try {
-    Simulation(with_solver(scene, solver.name, kCoarsestTolerance, solver.fixed_step));
+    Simulation(with_solver(scene, solver.name, kTolerances[0], solver.fixed_step));
     return true;
   } catch (const std::invalid_argument&) {
     return false;
@@ -204,7 +208,7 @@ std::vector<AccuracyRun> runs_of(const Scene& scene, const AccuracyOptions& opti
   for (const SolverName& solver : solver_names) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), solver.name) == wanted.end()) continue;
     if (wanted.empty() && !is_built(scene, solver)) continue;
-    for (const double setting : settings_of(scene, solver.fixed_step, options.step_share)) {
+    for (const double setting : settings_of(scene, solver.fixed_step)) {
       AccuracyRun run;
       run.solver = solver.name;
       run.setting = setting;

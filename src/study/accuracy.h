@@ -46,8 +46,6 @@ struct AccuracyOptions {
   std::vector<std::string> solvers;  ///< names; empty: all that this build has
   double seconds_per_run = 0.2;      ///< CPU time that the repetitions of a run may take; one is made in any case
   double longest_run = 10.0;  ///< a solver's finer settings are left out after a run longer than this, in s of CPU time
-  double step_share = 1e-2;   ///< the coarsest fixed step, in periods of the fastest excitation or of 1 rad per unit
-                              ///< of time, whichever is faster
 };
 
 /// The reference of a scene: `event` at tolerance 1e-13, checked by implicit steps alone at 1e-11. Where `event` would

@@ -139,7 +139,7 @@ std::vector<FactResult> judge_all(const FactBook& book, const Tables& tables, in
 }
 
 std::vector<FactResult> evaluate_facts(const FactSuite& suite, const FactRunOptions& options) {
-  return judge_all(suite.book, run_fact_studies(suite, options), options.resamples);
+  return judge_all(suite.book, run_fact_studies(suite, options));
 }
 
 }  // namespace vibratory_alignment

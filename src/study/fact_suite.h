@@ -39,8 +39,7 @@ Study thinned(const Study& study, const Thinning& thinning);
 struct FactRunOptions {
   FactSettings settings;
   Thinning thinning;
-  int threads = 1;    ///< of the sweeps; tables of touches are made by one
-  int resamples = 0;  ///< of read_measure
+  int threads = 1;  ///< of the sweeps; tables of touches are made by one
   /// Told after each trial how many of all are done; asked some twenty times a second whether to go on.
   std::function<void(std::size_t done, std::size_t all)> progress;
   std::function<bool()> go_on;
@@ -53,10 +52,10 @@ std::map<std::string, Study> studies_to_run(const FactSuite& suite, const FactRu
 /// SceneError, and std::runtime_error when `go_on` ended it.
 Tables run_fact_studies(const FactSuite& suite, const FactRunOptions& options);
 
-/// Judges all facts of the book. Throws like judge().
+/// Judges all facts of the book; `resamples` as of read_measure. Throws like judge().
 std::vector<FactResult> judge_all(const FactBook& book, const Tables& tables, int resamples = 0);
 
-/// run_fact_studies + judge_all. Deterministic, whatever the threads.
+/// run_fact_studies + judge_all without resamples. Deterministic, whatever the threads.
 std::vector<FactResult> evaluate_facts(const FactSuite& suite, const FactRunOptions& options);
 
 }  // namespace vibratory_alignment

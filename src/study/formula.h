@@ -16,7 +16,8 @@ class FormulaError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The value of the formula in each row. A comparison with NaN is false, arithmetic with NaN is NaN.
+/// The value of the formula in each row. Of NaN, arithmetic is NaN; the comparisons <, <=, ==, >=, > are false, != is
+/// true; &&, || and ?: take it for true, and min and max may pass over it.
 /// Throws FormulaError when it is not a formula, or asks for a column that the table does not have.
 std::vector<double> evaluate_formula(const std::string& formula, const Table& table);
 

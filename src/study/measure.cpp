@@ -52,6 +52,9 @@ std::vector<std::vector<std::size_t>> rows_by_sample(const Table& table) {
   return rows;
 }
 
+/// Of a formula: what is no number holds nowhere.
+bool is_true(double value) { return value != 0.0 && !std::isnan(value); }
+
 Prepared prepare(const Measure& measure, const Tables& tables) {
   Prepared prepared;
   prepared.measure = &measure;
@@ -64,7 +67,7 @@ Prepared prepare(const Measure& measure, const Tables& tables) {
   prepared.kept.assign(table.rows(), true);
   if (!measure.where.empty()) {
     const std::vector<double> condition = evaluate_formula(measure.where, table);
-    for (std::size_t r = 0; r < condition.size(); ++r) prepared.kept[r] = condition[r] != 0.0;
+    for (std::size_t r = 0; r < condition.size(); ++r) prepared.kept[r] = is_true(condition[r]);
   }
   if (measure.kind == Measure::Kind::curves) {
     prepared.along = &column_of(table, measure, measure.curves.along);
@@ -99,10 +102,7 @@ Reading read_rows(const Prepared& prepared, const std::vector<std::size_t>& rows
   }
   Reading reading;
   reading.coverage = prepared.value.empty() ? 0.0 : present / static_cast<double>(prepared.value.size());
-  const auto count_true = [&] {
-    return static_cast<double>(
-        std::count_if(values.begin(), values.end(), [](double v) { return v != 0.0 && !std::isnan(v); }));
-  };
+  const auto count_true = [&] { return static_cast<double>(std::count_if(values.begin(), values.end(), is_true)); };
   switch (prepared.measure->rows.take) {
     case RowStatistic::share: reading.value = present > 0.0 ? count_true() / present : kNone; break;
     case RowStatistic::count: reading.value = count_true(); break;
@@ -210,7 +210,7 @@ Field make_field(const Prepared& prepared, const std::vector<std::size_t>& rows)
     const double x = (*prepared.along)[row], y = (*prepared.each[0])[row];
     field.x.push_back(x);
     field.y.push_back(y);
-    cells[{x, y}].push_back(prepared.value[row] != 0.0 ? 1.0 : 0.0);
+    cells[{x, y}].push_back(is_true(prepared.value[row]) ? 1.0 : 0.0);
   }
   for (std::vector<double>* axis : {&field.x, &field.y}) {
     std::sort(axis->begin(), axis->end());

@@ -51,11 +51,33 @@ TEST(SolverChoice, AStiffBaseCallsForAuto) {
   EXPECT_EQ(choice("{stiffness: {y: 1e3}, damping: {y: 1e6}}"), "auto");
 }
 
+// A layer in which V follows within 1/lambda, lambda = f N/(m eps), or a gripper that is damped far beyond what moves.
+TEST(SolverChoice, SoDoANarrowLayerAndAFastGripper) {
+  const auto choice = [](const std::vector<std::string>& settings) {
+    std::vector<std::string> all = {"base={stiffness: {y: 1e3}}", "solver={accuracy: 1e-6}"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return std::string(load(least, all).solver.name);
+  };
+  EXPECT_EQ(choice({"friction={coefficient: 0.2}"}), "event");
+  EXPECT_EQ(choice({"friction={coefficient: 0.2, regularization: 1e-2}"}), "event");
+  EXPECT_EQ(choice({"friction={coefficient: 0.2, regularization: 1e-8}"}), "auto");
+  EXPECT_EQ(choice({"gripper.damping.y=10"}), "event");
+  EXPECT_EQ(choice({"gripper.damping.y=1e5"}), "auto");
+}
+
+// Without tilt G = 1 and N is what presses and shakes: lambda = f (f0 + A)/eps.
+TEST(SolverChoice, RateOfTheLayerIsThatOfItsForces) {
+  const Scene scene = load(least, {"friction={coefficient: 0.2, regularization: 1e-3}", "gripper.pressing_force=0.3",
+                                   "excitation.amplitude=1.5"});
+  EXPECT_NEAR(layer_rate(scene), 0.2 * 1.8 / 1e-3, 1e-9);
+}
+
 // sqrt(k/M) over 2 pi f for a part of mass M that does not tilt.
-TEST(SolverChoice, RatioIsThatOfTheFrequencies) {
+TEST(SolverChoice, RateIsThatOfTheFrequencies) {
   const double k = 4.0e6, mass = 0.25, frequency = 80.0;
   const Scene scene = load(least_si, {"part.mass=0.25", "base={stiffness: {y: 4.0e6}}", "excitation.frequency=80"});
-  EXPECT_NEAR(contact_rate_ratio(scene) / (std::sqrt(k / mass) / (2.0 * M_PI * frequency)), 1.0, 1e-12);
+  EXPECT_NEAR(contact_rate(scene) / scene.fastest_excitation() / (std::sqrt(k / mass) / (2.0 * M_PI * frequency)), 1.0,
+              1e-12);
 }
 
 TEST(SolverChoice, AFixedStepThatIsNotGivenFollowsTheFastestMotion) {
