@@ -3,6 +3,7 @@
 // bad parameters).
 #include <atomic>
 #include <chrono>
+#include <clocale>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -53,6 +54,15 @@ int wait_for_master() {
   return 0;
 }
 
+/// Waits until ROS time is known where somebody else tells it, but no longer than such clocks take to their next
+/// message: what is published before would be stamped near 0.
+void wait_for_clock() {
+  constexpr std::chrono::milliseconds kInterval(10), kPatience(1000);
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!interrupted && !ros::Time::isValid() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(kInterval);
+}
+
 /// `rosnode kill`, or another node that takes this one's name: the second parameter says which.
 void on_shutdown_request(XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answer) {
   std::ostringstream reason;
@@ -74,6 +84,7 @@ int fail(const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace vibratory_alignment;
+  std::setlocale(LC_CTYPE, "C.UTF-8");  // the log has the names of scenes as they are
   // roscpp's log goes to stdout, which buffers whole blocks where it is no terminal: each line is to be seen at once
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   std::signal(SIGINT, on_signal);
@@ -112,6 +123,7 @@ int main(int argc, char** argv) {
   // what a master that goes does not tell looks as if it were not set
   if (master_process() != master) fault = "the master went while the parameters were read: start the node again";
   if (!fault.empty()) return fail(fault);
+  if (!parameters.publish_clock) wait_for_clock();
   try {
     Aligner aligner(private_handle, *scene, parameters, master);
     aligner.spin([] { return interrupted.load(); });

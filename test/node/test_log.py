@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """The node's log on a stdout that is no terminal: each line comes while the node runs."""
+import re
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -33,6 +35,17 @@ class Log(unittest.TestCase):
             node.wait(10.0)
             reader.join(10.0)
             node.stdout.close()
+
+    def test_names_are_as_they_are_written(self):
+        with open(scene_path('small'), encoding='utf-8') as file:
+            text = file.read()
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml', encoding='utf-8') as scene:
+            scene.write(re.sub('(?m)^name: .*$', 'name: Prüfling', text))
+            scene.flush()
+            said = subprocess.run((program('aligner_node'), '__name:=log', '_scene_file:=' + scene.name,
+                                   '_time_scale:=0.0', '_exit_when_done:=true', '_autostart:=true'),
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=20).stdout
+        self.assertIn('Prüfling: runs', said.decode('utf-8'))
 
 
 if __name__ == '__main__':

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Stamps while ROS time stands still at 0, and under the clock of somebody else."""
+import itertools
 import subprocess
+import threading
 import time
 
 import rospy
@@ -8,7 +10,25 @@ import rostest
 import tf2_ros
 from rosgraph_msgs.msg import Clock
 
-from aligner_test_case import AlignerTestCase, program, scene_path
+from aligner_test_case import AlignerTestCase, Listener, program, scene_path
+from vibratory_alignment.msg import AlignerState
+
+
+class PeriodicThread(threading.Thread):
+    """Does something again and again, with so many seconds of wall time in between, until it is stopped."""
+
+    def __init__(self, interval, action):
+        super().__init__(daemon=True)
+        self.interval, self.action, self.stopped = interval, action, threading.Event()
+        self.start()
+
+    def run(self):
+        while not self.stopped.wait(self.interval):
+            self.action()
+
+    def stop(self):
+        self.stopped.set()
+        self.join()
 
 
 class SimTime(AlignerTestCase):
@@ -79,6 +99,19 @@ class SimTime(AlignerTestCase):
 
     def test_3_a_clock_that_stands_stops_neither_trial_nor_node(self):
         self.assertEqual(self.run_to_end().tau, 3.0)
+
+    def test_4_stamps_begin_with_a_clock_that_runs_already(self):
+        publisher = rospy.Publisher('/clock', Clock, queue_size=10)
+        instants = itertools.count(1000)
+        timer = PeriodicThread(0.4, lambda: publisher.publish(Clock(rospy.Time(next(instants)))))
+        self.addCleanup(timer.stop)
+        states = Listener('/late/state', AlignerState)
+        process = subprocess.Popen((program('aligner_node'), '__name:=late', '_scene_file:=' + scene_path('small'),
+                                    '_time_scale:=0.01'), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.terminate)
+        self.assertTrue(states.wait_for(5))
+        self.assertGreaterEqual(min(state.header.stamp.to_sec() for state in states.messages), 1000.0)
 
 
 if __name__ == '__main__':
