@@ -38,8 +38,8 @@ constexpr double kShorter = 0.9;
 /// How far beyond its limit T of a single contact that has stayed at it tells that it leaves it.
 constexpr double kBeyondLimit = 1e-11;
 
-/// Largest correction of the time at which a contact loads again, as a share of it; how often it is corrected, and the
-/// share of the one before that a correction may be.
+/// The time at which a contact loads again: its first correction at most, as a share of it; how often it is corrected,
+/// and the share of the one before that a correction may be.
 constexpr double kMostReloadCorrection = 0.1, kMostOfLastCorrection = 0.5;
 constexpr int kReloadCorrections = 4;
 

@@ -21,7 +21,7 @@ struct SolverCounts {
   long steps = 0;            ///< segments
   long rejected = 0;         ///< steps computed and thrown away
   long rhs_evaluations = 0;  ///< evaluations of the forces (each order of a power series counts as one)
-  long events = 0;
+  long events = 0;           ///< from which the motion went on: those that end a trial are not among them
 };
 
 class Solver {

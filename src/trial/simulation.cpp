@@ -1,8 +1,10 @@
 #include "trial/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "mechanics/statics.h"
@@ -62,10 +64,10 @@ class Simulation::Impl {
 
   void set_excitations(const std::vector<Excitation>& excitations) {
     const double now = has_segment_ ? segment().end_time() : 0.0;
-    excitations_ = excitations;
+    std::copy_n(excitations.begin(), std::min(excitations.size(), excitations_.size()), excitations_.begin());
     guarded([&] { solver_->set_excitations(excitations); });
-    contacts_.set_period(slowest_period(excitations));
-    settling_.restart(excitations, now);
+    contacts_.set_period(slowest_period(excitations_));
+    settling_.restart(excitations_, now);
   }
 
   void set_pressing_force(double pressing_force) {
@@ -167,11 +169,14 @@ class Simulation::Impl {
       outcome_ = aligned_time_ ? Outcome::jammed : Outcome::stalled;
   }
 
-  /// Does a part of the trial. Whatever it throws ends the trial as failed: nothing gets past the outcome.
+  /// Does a part of the trial. Whatever it throws ends the trial as failed, but for a lack of memory, which is none of
+  /// its results.
   template <class Part>
   void guarded(const Part& part) {
     try {
       part();
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       fail(error.what());
     }

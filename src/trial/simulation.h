@@ -45,7 +45,7 @@ class Simulation {
   void set_pressing_force(double pressing_force);
 
   const Scene& scene() const;
-  /// What the scene has become for the solver, at the start.
+  /// What the scene has become for the solver; its `start` is that of the trial, its axes follow set_pressing_force().
   const System& system() const;
   /// End of what has been booked so far.
   double time() const;

@@ -363,6 +363,24 @@ TEST(Changes, cuts_do_not_change_the_motion) {
   }
 }
 
+// Two excitations, of which the first is set to what it is: the second goes on for all that watches the trial. A
+// contact on a soft base lasts pi/sqrt(k + 1) = 0.95 of the second one's period of 6.3, and would be none of an impact
+// beside the first one's alone.
+TEST(Changes, of_the_first_excitation_leave_the_others_to_all_that_watch) {
+  const Scene scene = scene_of(test::ball, {"base={stiffness: {y: 10.0}}",
+                                            "excitation=[{amplitude: 0.01, frequency: 25}, "
+                                            "{amplitude: 0.01, frequency: 1}]"});
+  Simulation simulation(scene);
+  simulation.set_excitations({scene.excitations[0]});
+  while (simulation.advance()) {
+  }
+  const TrialResult changed = simulation.result(), alone = test::run(scene);
+  ASSERT_GT(test::total_impacts(alone), 1);
+  EXPECT_EQ(changed.mode, Mode::impact);
+  EXPECT_EQ(alone.mode, Mode::impact);
+  EXPECT_EQ(changed.final_time, alone.final_time);
+}
+
 // A change is judged anew: what had nearly settled goes on.
 TEST(Changes, restart_the_watch_for_settling) {
   const Scene scene = scene_of(
