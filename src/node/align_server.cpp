@@ -1,6 +1,5 @@
 #include "node/align_server.h"
 
-#include <algorithm>
 #include <exception>
 #include <limits>
 #include <utility>
@@ -66,10 +65,7 @@ void AlignServer::on_cancel(Server::GoalHandle handle) {
 void AlignServer::add(const Sample& sample) {
   if (!goal_) return;
   sample_ = sample;
-  for (int i = 0; i < kSiteCount; ++i) {
-    double& peak = peak_force_[static_cast<std::size_t>(spot_of(static_cast<Site>(i)))];
-    peak = std::max(peak, sample.contacts[static_cast<std::size_t>(i)].peak_normal_force);
-  }
+  raise_peaks(sample, peak_force_);
 }
 
 void AlignServer::give_feedback(const Messages& messages, bool paused) {

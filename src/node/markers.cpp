@@ -207,8 +207,7 @@ void Markers::draw_part(const ros::Time& stamp, MarkerArray& array) const {
   const State& state = sample_.state;
   Marker body = marker(stamp, "part", 0, Marker::TRIANGLE_LIST);
   body.pose.position = point(state.x, state.y, unit);
-  body.pose.orientation.y = -std::sin(state.phi / 2.0);
-  body.pose.orientation.w = std::cos(state.phi / 2.0);
+  body.pose.orientation = ros_tilt(state.phi);
   paint(body, kPartColour);
   const double b = part_.base_distance;
   const double above_centre = std::min(b, std::max(kTallest * size_ - b, kLeastAboveCentre * size_));

@@ -51,6 +51,13 @@ geometry_msgs::Vector3 ros_vector(double x, double y, double unit) {
   return vector;
 }
 
+geometry_msgs::Quaternion ros_tilt(double phi) {
+  geometry_msgs::Quaternion rotation;
+  rotation.y = -std::sin(phi / 2.0);
+  rotation.w = std::cos(phi / 2.0);
+  return rotation;
+}
+
 Messages::Messages(const Scene& scene, const Frames& frames)
     : scene_name_(scene.name),
       scene_units_(scene.units == Units::si ? "si" : "dimensionless"),

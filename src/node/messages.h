@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include <geometry_msgs/Quaternion.h>
 #include <geometry_msgs/Vector3.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
@@ -27,6 +28,9 @@ OutputUnits ros_units(const Scene& scene);
 
 /// Vector of the plane of motion in ROS axes, times `unit`.
 geometry_msgs::Vector3 ros_vector(double x, double y, double unit = 1.0);
+
+/// Tilt of the plane of motion, about -y in ROS axes.
+geometry_msgs::Quaternion ros_tilt(double phi);
 
 class Messages {
  public:

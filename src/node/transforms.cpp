@@ -1,6 +1,5 @@
 #include "node/transforms.h"
 
-#include <cmath>
 #include <string>
 
 #include "node/messages.h"
@@ -37,8 +36,7 @@ geometry_msgs::TransformStamped part_transform(const State& state, double length
                                                const ros::Time& stamp) {
   geometry_msgs::TransformStamped transform = identity(frames.slot, frames.part, stamp);
   transform.transform.translation = ros_vector(state.x, state.y, length);
-  transform.transform.rotation.y = -std::sin(state.phi / 2.0);
-  transform.transform.rotation.w = std::cos(state.phi / 2.0);
+  transform.transform.rotation = ros_tilt(state.phi);
   return transform;
 }
 

@@ -51,10 +51,7 @@ bool TrialRun::next(Sample& sample, const std::function<bool()>& go_on, double l
   }
   ++sample_count_;
   last_ = sample;
-  for (int i = 0; i < kSiteCount; ++i) {
-    double& peak = peak_force_[static_cast<std::size_t>(spot_of(static_cast<Site>(i)))];
-    peak = std::max(peak, sample.contacts[static_cast<std::size_t>(i)].peak_normal_force);
-  }
+  raise_peaks(sample, peak_force_);
   ended_ = sample.is_last;
   return true;
 }

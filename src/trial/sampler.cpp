@@ -8,6 +8,14 @@
 #include "trial/contact_impulse.h"
 
 namespace vibratory_alignment {
+
+void raise_peaks(const Sample& sample, std::array<double, kSpotCount>& peak_force) {
+  for (std::size_t site = 0; site < kSiteCount; ++site) {
+    double& peak = peak_force[static_cast<std::size_t>(spot_of(static_cast<Site>(site)))];
+    peak = std::max(peak, sample.contacts[site].peak_normal_force);
+  }
+}
+
 Sampler::Sampler(Simulation& simulation, double interval, bool with_events)
     : simulation_(simulation), system_(simulation.system()), interval_(interval), with_events_(with_events) {}
 

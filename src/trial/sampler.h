@@ -40,6 +40,9 @@ struct Sample {
   double progress = 0.0;      ///< 0 at the start, 1 when the part has reached the clearance of the slot, from |x|
 };
 
+/// Raises the largest N of each spot to that of the sample.
+void raise_peaks(const Sample& sample, std::array<double, kSpotCount>& peak_force);
+
 /// Samples in a period of the fastest excitation, where nobody says how far apart they are to be.
 constexpr double kUsualSamplesPerPeriod = 20.0;
 

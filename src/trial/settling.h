@@ -3,8 +3,9 @@
 // The state is compared once per period of the excitation with that of up to 8 periods before (subharmonics). It has
 // settled when over 16 such instants every difference D is below
 //     min(1e-9, 0.01 / R^2),  R = periods left until the time limit,
-// and D does not grow; 1e-13, the rounding of a place, is none for either. So neither the drift that is left (R D) nor one that feeds on itself (D' ~ D^2, which needs
-// about 1/sqrt(D) periods to get away) can still take the part anywhere before the time limit.
+// and D does not grow; 1e-13, the rounding of a place, counts as none. So neither the drift that is left (R D) nor one
+// that feeds on itself (D' ~ D^2, which needs about 1/sqrt(D) periods to get away) can still take the part anywhere
+// before the time limit, up to some 3e5 periods.
 #pragma once
 
 #include <array>
