@@ -23,6 +23,7 @@
 #include "cli/solver_option.h"
 #include "cli/temporary_file.h"
 #include "cli/whole_file.h"
+#include "model/number_text.h"
 #include "model/scaling.h"
 #include "model/scene_loader.h"
 #include "model/setting.h"
@@ -85,19 +86,19 @@ void print_row(std::FILE* out, const Scene& scene, const AccuracyRun& run) {
 void write_csv(const std::string& path, const std::string& name, const Scene& scene,
                const std::vector<AccuracyRun>& runs, const AccuracyReference& reference) {
   std::ofstream file(path);
-  file.precision(17);
   file << "solver,kind,setting,pose_error,force_error,duration_error,cpu_seconds,repetitions,rhs_evaluations,steps,"
           "rejected,events,energy_residual,reference_agreement,failure\n";
   for (const AccuracyRun& run : runs) {
-    file << run.solver << ',' << (run.fixed_step ? "step" : "tolerance") << ',' << own_setting(scene, run) << ',';
+    file << run.solver << ',' << (run.fixed_step ? "step" : "tolerance") << ',' << number_text(own_setting(scene, run))
+         << ',';
     if (run.failure.empty()) {
-      file << run.pose_error << ',' << run.force_error << ',';
-      if (run.duration_error) file << *run.duration_error;
-      file << ',' << run.cpu_seconds << ',' << run.repetitions << ',' << run.counts.rhs_evaluations << ','
-           << run.counts.steps << ',' << run.counts.rejected << ',' << run.counts.events << ',' << run.energy_residual
-           << ',' << reference.agreement << ",\n";
+      file << number_text(run.pose_error) << ',' << number_text(run.force_error) << ',';
+      if (run.duration_error) file << number_text(*run.duration_error);
+      file << ',' << number_text(run.cpu_seconds) << ',' << run.repetitions << ',' << run.counts.rhs_evaluations << ','
+           << run.counts.steps << ',' << run.counts.rejected << ',' << run.counts.events << ','
+           << number_text(run.energy_residual) << ',' << number_text(reference.agreement) << ",\n";
     } else {
-      file << ",,,,,,,,,," << reference.agreement << ',' << csv_cell(run.failure) << '\n';
+      file << ",,,,,,,,,," << number_text(reference.agreement) << ',' << csv_cell(run.failure) << '\n';
     }
   }
   close_written(file, name);
