@@ -21,8 +21,7 @@ class SweepCsv {
   /// `header` names the columns. `resume`: hands the rows that PATH.part has of the same sweep, or PATH itself if it is
   /// whole, to `see_row`, cuts off a last line that is torn and continues behind it; a file that is not there is begun.
   /// Throws UsageError: for a file that cannot be written or read, that another process is writing, that is not of this
-  /// sweep
-  /// (`resume`), or that has rows to be lost, also those of another shard (not `resume`).
+  /// sweep (`resume`), or that has rows to be lost, also those of another shard (not `resume`).
   SweepCsv(const std::string& path, const SweepHead& head, const std::string& header, bool resume,
            const SeeRow& see_row);
   ~SweepCsv();

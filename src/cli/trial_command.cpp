@@ -199,16 +199,17 @@ void show(ProgressBar& progress, double time, double end) {
 void simulate(Simulation& simulation, Recorder& recorder, double interval, double end, const InterruptGuard& interrupt,
               ProgressBar& progress) {
   const double unit = output_units(simulation.scene()).time;
-  if (!recorder.wanted()) {
-    while (interrupt.signal() == 0 && simulation.advance()) show(progress, simulation.time() * unit, end * unit);
-    return;
-  }
-  Sampler sampler(simulation, interval, true);
-  Sample sample;
   const auto go_on = [&] {
     show(progress, simulation.time() * unit, end * unit);
     return interrupt.signal() == 0;
   };
+  if (!recorder.wanted()) {
+    while (go_on() && simulation.advance()) {
+    }
+    return;
+  }
+  Sampler sampler(simulation, interval, true);
+  Sample sample;
   while (go_on() && sampler.next(sample, go_on)) recorder.write(sample);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 namespace vibratory_alignment {
-
 namespace {
 
 /// G, of the part's farthest point.

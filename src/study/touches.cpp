@@ -13,12 +13,11 @@
 #include "study/trial_scenes.h"
 #include "study/trial_table.h"
 #include "trial/contact_impulse.h"
+#include "trial/sampler.h"
 #include "trial/simulation.h"
 
 namespace vibratory_alignment {
 namespace {
-
-constexpr long kSegmentsUnasked = 1000;
 
 /// Follows the contacts of a trial, segment by segment. Dimensionless.
 class TouchLog {
@@ -116,7 +115,7 @@ std::vector<Touch> touches_of(const Scene& scene, const std::function<bool()>& g
   Simulation simulation(scene, options);
   TouchLog log(simulation.system());
   for (long segments = 0; simulation.advance(); ++segments) {
-    if (segments % kSegmentsUnasked == 0 && go_on && !go_on()) throw std::runtime_error("interrupted");
+    if (segments % Sampler::kSegmentsUnasked == 0 && go_on && !go_on()) throw std::runtime_error("interrupted");
     log.book(simulation.segment());
   }
   std::vector<Touch> touches = log.finish();

@@ -29,7 +29,7 @@ struct Touch {
 
 /// The touches of a trial of the scene, in the order of their ends; with the one it starts in and the one it ends in.
 /// Throws SceneError and std::invalid_argument like Simulation; a trial that fails gives those until then. `go_on` is
-/// asked every thousand segments; throws std::runtime_error when it says no.
+/// asked every Sampler::kSegmentsUnasked segments; throws std::runtime_error when it says no.
 std::vector<Touch> touches_of(const Scene& scene, const std::function<bool()>& go_on = {});
 
 /// The touches of all trials of a study as a table: index, sample and varied values of the trial; a1, a2, b1, b2 (0 or

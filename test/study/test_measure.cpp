@@ -204,6 +204,12 @@ TEST(Resampling, is_left_out_where_nothing_is_sampled) {
   EXPECT_TRUE(std::isnan(read_measure(rows(RowStatistic::mean, "duration"), durations()).low));
 }
 
+// Four of the 24 rows have no duration.
+TEST(Rows, of_which_a_condition_is_none_are_not_kept) {
+  const Tables tables = durations();
+  EXPECT_EQ(read_measure(rows(RowStatistic::count, "1", "duration"), tables).value, 20.0);
+}
+
 TEST(Measure, needs_its_tables_and_columns) {
   Measure measure = rows(RowStatistic::mean, "duration");
   measure.table.study = "other";
