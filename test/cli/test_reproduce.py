@@ -217,7 +217,7 @@ print("goes on")
                 self.assertEqual(file.read(), "whole")
 
     def test_an_interrupt_while_data_of_figures_are_written(self):
-        self.scene("long.yaml", solver={"name": "rk4", "step": 1e-9}, trial={"time_limit": 1e6},
+        self.scene("long.yaml", solver={"name": "rk4", "step": 1e-9, "step_limit": 10**12}, trial={"time_limit": 1e6},
                    initial={"x": 0.2, "y": 5.0}, excitation={"amplitude": 0.0, "frequency": 20.0})
         self.write("endless.yaml", "scene: long.yaml\n")
         facts = FACTS.replace("study: small}", "study: endless}", 1)
