@@ -11,8 +11,9 @@
 namespace vibratory_alignment {
 namespace {
 
-/// Halvings after which an undecided interval is narrower than the resolution of a double.
-constexpr int kMaxHalvings = 52;
+/// What is undecided within the last digit of the time is decided by its ends; near zero, after so many halvings.
+constexpr double kTimeRounding = std::numeric_limits<double>::epsilon();
+constexpr int kMaxHalvings = 104;
 
 /// Two coefficients at a time from an even power on, as scale_to_unit() leaves them: read as they were written they
 /// need not wait in memory for one another. An odd last one alone.
@@ -116,6 +117,8 @@ struct Part {
   int halvings = 0;
 
   double end() const { return start + width; }
+  /// Too narrow for anything to be told within it.
+  bool is_instant() const { return width <= kTimeRounding * start || halvings == kMaxHalvings; }
   Part left() const { return {start, 0.5 * width, halvings + 1}; }
   Part right() const { return {start + 0.5 * width, 0.5 * width, halvings + 1}; }
 };
@@ -127,7 +130,7 @@ double first_fall_on_part(const Series& g, int order, const BernsteinForm& form,
   if (changes == 0) return kNoRoot;
   if (changes == 1)
     return falling_root(g, order, part.start, part.end(), part.start + part.width * zero_of_coefficients(form));
-  if (part.halvings == kMaxHalvings) return form.at_end() < 0.0 ? part.end() : kNoRoot;
+  if (part.is_instant()) return form.at_end() < 0.0 ? part.end() : kNoRoot;
   BernsteinForm left, right;
   halve(form, left, right);
   const double fall = first_fall_on_part(g, order, left, part.left());
@@ -217,7 +220,7 @@ Entry first_entry_on_part(const Conditions& g, const std::array<int, kMaxConditi
     // the first rise of the one undecided condition; one that starts true by a last digit, and falls, is halved away
     if (form.at_start() <= 0.0) return {first_rise_on_part(g.g[last], orders[last], form, part), last};
   }
-  if (part.halvings == kMaxHalvings) {
+  if (part.is_instant()) {
     for (int i = 0; i < g.count; ++i)
       if (forms[i].at_end() <= 0.0) return {};
     return {part.end(), last};

@@ -57,6 +57,19 @@ TEST(CornerClipping, a_sliding_corner_touches_however_little_it_reaches_below) {
       }
 }
 
+// So fast that one step, as long as the springs allow, reaches a hundred million times as far.
+TEST(CornerClipping, an_edge_early_in_a_long_step_is_not_too_short_a_visit) {
+  for (const double depth : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const double phi = 0.7, start = 0.0, speed = 1e8;
+    Scene s = sliding_by(phi, depth, speed, start);
+    s.trial.time_limit = 1.0;
+    const TrialResult r = test::run(s);
+    ASSERT_GE(r.impacts[0], 1) << depth;
+    const double x = kSlot - (kBase - *s.initial.y * std::cos(phi)) / std::sin(phi);
+    EXPECT_NEAR(r.first_contact->time, (x - start) / speed, 4e-15 / speed / std::sin(phi)) << depth;
+  }
+}
+
 // Mirrored, and through the side: going left with phi > 0 the edge comes in through the left side.
 TEST(CornerClipping, through_the_side_as_well) {
   for (const double depth : {1e-3, 1e-8, 1e-12}) {

@@ -328,20 +328,21 @@ TEST(FirstEntry, names_the_condition_that_became_true_last) {
   EXPECT_GT(entries, 20'000);
 }
 
-// An edge that clips a corner: inside both conditions for as short as 1e-12, or missing it by as little.
+// An edge that clips a corner: inside both conditions for as short as 1e-12 of the time until then, or missing it by as
+// little; early in a long step as well.
 TEST(FirstEntry, a_clipped_corner_is_seen_and_a_missed_one_is_not_invented) {
   for (const double width : {1e-3, 1e-6, 1e-9, 1e-12})
-    for (const double at : {0.1, 0.3, 0.55, 0.98})
+    for (const double at : {1e-15, 1e-6, 0.1, 0.3, 0.55, 0.98})
       for (const double sign : {1.0, -1.0}) {
         Conditions conditions;
         conditions.count = 2;
-        conditions.g[0] = from_roots({at}, -1.0);                // t - at
-        conditions.g[1] = from_roots({at + sign * width}, 1.0);  // at +- width - t
+        conditions.g[0] = from_roots({at}, -1.0);                     // t - at
+        conditions.g[1] = from_roots({at + sign * width * at}, 1.0);  // at +- width at - t
         const Entry entry = first_entry(conditions, 1, 1.0);
         if (sign < 0.0) {
           EXPECT_EQ(entry.time, kNoRoot) << width;
         } else {
-          EXPECT_NEAR(entry.time, at, 2e-16);
+          EXPECT_NEAR(entry.time, at, 4e-16 * at);
           EXPECT_EQ(entry.last, 0);
         }
       }
