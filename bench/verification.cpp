@@ -116,7 +116,7 @@ void print_energy(int count, char** paths) {
 int main(int argc, char** argv) {
   try {
     std::printf(
-        "## Converged answers\n\nLargest error of the end state (position and velocity) over `solver.tolerance`.\n\n");
+        "## Converged answers\n\nLargest error of the end state (position and velocity) at each `solver.tolerance`.\n\n");
     print_references();
     std::printf("\n## Energy\n\nResidual of the ledger relative to the energy exchanged, dimensionless times.\n\n");
     print_energy(argc - 1, argv + 1);

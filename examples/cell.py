@@ -9,6 +9,7 @@ Topic ~report (std_msgs/String, latched): a list of results as YAML, when the la
 The fields of all parts are checked before the first one is aligned; what they name, like a scene, by the aligner.
 Exit status: 0 every part is in its slot, 1 some are not, the aligner does not answer, or a part cannot be asked for.
 """
+import math
 import sys
 import time
 from io import BytesIO
@@ -89,9 +90,10 @@ def align(client, name, goal, patience):
     report = {'part': name, 'state': STATES[client.get_state()], 'text': client.get_goal_status_text()}
     result = client.get_result()
     if result is not None and result.outcome:
-        report.update(outcome=result.outcome, duration_ms=1e3 * result.duration, peak_force=max(result.peak_force),
-                      impacts=sum(result.impacts), force_limit_exceeded=result.force_limit_exceeded,
-                      energy_residual=result.energy_residual)
+        aligned_ms = None if math.isnan(result.duration) else 1e3 * result.duration
+        report.update(outcome=result.outcome, time_ms=1e3 * result.time, aligned_ms=aligned_ms,
+                      peak_force=max(result.peak_force), impacts=sum(result.impacts),
+                      force_limit_exceeded=result.force_limit_exceeded, energy_residual=result.energy_residual)
     return report
 
 
@@ -111,8 +113,9 @@ def main():
     reports = [align(client, name_of(part), goal, patience) for part, goal in zip(parts, goals)]
     for report in reports:
         if 'outcome' in report:
-            rospy.loginfo('%(part)s: %(outcome)s after %(duration_ms).3g ms, %(impacts)d impacts, peak %(peak_force).3g N',
-                          report)
+            aligned = 'aligned after %(aligned_ms).3g ms, ' if report['aligned_ms'] is not None else 'not aligned, '
+            rospy.loginfo(('%(part)s: %(outcome)s after %(time_ms).3g ms, ' + aligned +
+                           '%(impacts)d impacts, peak %(peak_force).3g N') % report)
         else:
             rospy.logerr('%(part)s: %(state)s: %(text)s', report)
     publisher.publish(yaml.safe_dump(reports))

@@ -35,6 +35,18 @@ SHOWN = (
     ("lasting contact on a stiff overdamped base, tanh", "lasting_overdamped", "lasting_overdamped"),
     ("the same, dry", "lasting_overdamped_dry", "lasting_overdamped"),
 )
+# Colour and mark: strong ones for the own solvers, as in `align accuracy --plot`, and for the best peers.
+OWN_STYLES = {
+    "own_event": ("#0072B2", "o"),
+    "own_auto": ("#56B4E9", "s"),
+    "own_implicit": ("#009E73", "^"),
+    "own_semi_implicit": ("#E69F00", "v"),
+    "own_rk4": ("#D55E00", "D"),
+    "own_ode": ("#CC79A7", "X"),
+}
+BEST_PEERS = {"odeint_dopri5": ("black", "o"), "cvode_bdf": ("#8C1C13", "s"), "cvode_adams": ("#C0584F", "D")}
+OTHER_MARKS = ("o", "s", "^", "v", "D", "X", "P", "<", ">", "*", "p")
+OTHER_COLOURS = ("0.62", "0.72", "0.52")
 # Peers that know dry friction are compared on it.
 DRY_PEERS = ("ode_world_step",)
 
@@ -92,19 +104,40 @@ def print_all(runs, answers):
         table(["solver"] + [f"{error:.0e}" for error in ERRORS] + ["least error"], rows)
 
 
+def style_of(name, others):
+    """How a tool is drawn; `others`: those without a colour of their own."""
+    if name in OWN_STYLES:
+        colour, mark = OWN_STYLES[name]
+        style = {"color": colour, "marker": mark, "markersize": 4.5, "linewidth": 1.6, "zorder": 4}
+        # `auto` often is `event` or `implicit`: both stay to be seen
+        return style if name != "own_auto" else dict(style, markersize=8.0, markerfacecolor="none", linestyle="--", zorder=3)
+    if name in BEST_PEERS:
+        colour, mark = BEST_PEERS[name]
+        return {"color": colour, "marker": mark, "markersize": 3.0, "linewidth": 1.2, "linestyle": "--", "zorder": 2.5}
+    i = others.index(name)
+    return {"color": OTHER_COLOURS[i % len(OTHER_COLOURS)], "marker": OTHER_MARKS[i % len(OTHER_MARKS)], "markersize": 3.0,
+            "linewidth": 0.7, "zorder": 2}
+
+
+def kept_points(series, answer):
+    """(error that the setting and all tighter ones keep, time), coarse to tight."""
+    points, most = [], 1e-16
+    for run in reversed(series):
+        most = max(most, run.error(answer, POSITION))
+        points.append((most, run.time_s))
+    return [(error, time) for error, time in reversed(points) if error < 1.0]
+
+
 def draw(runs, answers):
     shown = [entry for entry in SHOWN if entry[1] in ("r1", "r1_dry", "r1_stiff", "lasting_overdamped")]
     figure, panels = plt.subplots(2, 2, figsize=(11.0, 8.5), sharex=True)
     names = sorted({name for entry in shown for name in series_of(runs, *entry[1:])}, key=lambda n: (not n.startswith(OWN), n))
-    colours = {name: plt.get_cmap("tab20")(i % 20) for i, name in enumerate(names)}
+    others = [name for name in names if name not in OWN_STYLES and name not in BEST_PEERS]
     lines = {}
     for panel, (title, own_problem, peer_problem) in zip(panels.flat, shown):
         for name, (series, problem) in series_of(runs, own_problem, peer_problem).items():
-            points = [(max(run.error(answers[problem], POSITION), 1e-16), run.time_s) for run in series]
-            points = [(error, time) for error, time in points if error < 1.0]
-            own = name.startswith(OWN)
-            lines[name], = panel.loglog(*(zip(*points) if points else ((), ())), "-" if own else "--", marker="o" if own else ".",
-                                        markersize=3, linewidth=1.6 if own else 1.0, color=colours[name])
+            points = kept_points(series, answers[problem])
+            lines[name], = panel.loglog(*(zip(*points) if points else ((), ())), **style_of(name, others))
         panel.set_title(title if own_problem == peer_problem else f"{title} (peers: tanh)", fontsize=10)
         panel.set_xlim(1.0, 1e-15)
         panel.grid(True, which="major", linewidth=0.3)
@@ -112,7 +145,8 @@ def draw(runs, answers):
         panel.set_xlabel("error of x, y, phi at the end")
     for panel in panels[:, 0]:
         panel.set_ylabel("processor time, s")
-    figure.legend([lines[n] for n in names if n in lines], [n.replace(OWN, "own: ") for n in names if n in lines],
+    order = [name for name in (*OWN_STYLES, *BEST_PEERS, *others) if name in lines]
+    figure.legend([lines[name] for name in order], [name.replace(OWN, "own: ") for name in order],
                   loc="lower center", ncol=6, fontsize=8, frameon=False)
     figure.tight_layout(rect=(0.0, 0.07, 1.0, 1.0))
     figure.savefig(FIGURE, metadata={"Date": None})

@@ -5,10 +5,10 @@
 
 namespace vibratory_alignment {
 
-/// "event, implicit, ...": those of this build.
+/// "event, implicit, ...": all there are. (`ode` is refused by a build without Open Dynamics Engine.)
 std::string solver_list();
 
-/// Empty for the name of a solver of this build, else what is wrong with it: a check of CLI11.
+/// Empty for the name of a solver, else what is wrong with it: a check of CLI11.
 std::string check_solver(const std::string& name);
 
 }  // namespace vibratory_alignment

@@ -205,6 +205,7 @@ void Aligner::on_settings(AlignerConfig& requested) {
   DriveSettings& settings = stage_->settings;
   TrialRun& trial = stage_->trial;
   const AlignerConfig before = settings.config();
+  settings.undo_clamping(requested);
   for (const std::string& refusal : settings.change(requested)) ROS_WARN("Refused: %s", refusal.c_str());
   const AlignerConfig& after = settings.config();
   if (after.enabled != before.enabled || after.amplitude != before.amplitude || after.frequency != before.frequency ||

@@ -9,6 +9,16 @@
 namespace vibratory_alignment {
 namespace {
 
+struct Number {
+  double AlignerConfig::*value;
+  const char* name;
+};
+constexpr Number kNumbers[] = {
+    {&AlignerConfig::amplitude, "amplitude"},   {&AlignerConfig::frequency, "frequency"},
+    {&AlignerConfig::phase, "phase"},           {&AlignerConfig::pressing_force, "pressing_force"},
+    {&AlignerConfig::time_scale, "time_scale"},
+};
+
 /// f0 = y_touch - y_a, also for a scene that gives anchor.y; nothing when nothing can be touched from above.
 std::optional<double> pressing_force_of(const Scene& scene) {
   if (scene.gripper.pressing_force) return scene.gripper.pressing_force;
@@ -44,25 +54,20 @@ DriveSettings::DriveSettings(const Scene& scene, double time_scale)
   scene_config_ = config_;
 }
 
-std::vector<std::string> DriveSettings::change(AlignerConfig& requested) {
-  std::vector<std::string> refusals;
-  // The server clamps every value of a request, also those that nobody has asked to change: a value that the scene
-  // gives beyond the range must survive that.
+void DriveSettings::undo_clamping(AlignerConfig& requested) const {
   AlignerConfig clamped = config_;
   clamped.__clamp__();
-  const auto check = [&](double AlignerConfig::*value, const char* name) {
-    if (!std::isfinite(requested.*value)) {
-      refusals.push_back(std::string(name) + ": not a finite number");
-      requested.*value = config_.*value;
-    } else if (requested.*value == clamped.*value) {
-      requested.*value = config_.*value;
-    }
-  };
-  check(&AlignerConfig::amplitude, "amplitude");
-  check(&AlignerConfig::frequency, "frequency");
-  check(&AlignerConfig::phase, "phase");
-  check(&AlignerConfig::pressing_force, "pressing_force");
-  check(&AlignerConfig::time_scale, "time_scale");
+  for (const Number& number : kNumbers)
+    if (requested.*number.value == clamped.*number.value) requested.*number.value = config_.*number.value;
+}
+
+std::vector<std::string> DriveSettings::change(AlignerConfig& requested) {
+  std::vector<std::string> refusals;
+  for (const Number& number : kNumbers) {
+    if (std::isfinite(requested.*number.value)) continue;
+    refusals.push_back(std::string(number.name) + ": not a finite number");
+    requested.*number.value = config_.*number.value;
+  }
 
   if (requested.waveform == static_cast<int>(Waveform::chirp) && scene_excitations_.front().sweep_time <= 0.0) {
     if (requested.waveform != config_.waveform) refusals.emplace_back("waveform: the scene gives no sweep for a chirp");

@@ -20,6 +20,10 @@ class DriveSettings {
   /// The values in force.
   const AlignerConfig& config() const { return config_; }
 
+  /// Undoes the clamping of dynamic_reconfigure's server, which clamps every value of a request, also those that nobody
+  /// has asked to change: one at the end of the range where the value in force lies beyond it becomes that in force.
+  void undo_clamping(AlignerConfig& requested) const;
+
   /// Takes over what can be used of `requested` and sets the rest of it back to the values in force. Returns why, one
   /// line for each value refused: NaN and infinity, a waveform or force that the scene has no ground for.
   std::vector<std::string> change(AlignerConfig& requested);

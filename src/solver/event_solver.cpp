@@ -471,12 +471,12 @@ void EventSolver::cut(double duration) {
   is_cut_ = true;
   if (!forces_have_jumped_) return;
   // what was to change at the old end does so here
-  if (!asked_.empty()) change_drives(asked_);
+  asked_.for_each([&](const std::vector<Excitation>& change) { change_drives(change); });
   forces_jump();
 }
 
 void EventSolver::set_excitations(const std::vector<Excitation>& excitations) {
-  if (started_) asked_ = excitations;
+  if (started_) asked_.add(excitations);
   change_drives(excitations);
   forces_jump();
 }

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "solver/asked_changes.h"
 #include "solver/flight.h"
 #include "solver/implicit_step.h"
 #include "solver/layer_crossing.h"
@@ -87,7 +88,7 @@ class EventSolver final : public Solver {
   bool mode_changes_ = false;     ///< next_mode_ holds; else mode_ does, without pins once time has passed
   std::vector<Drive> drives_, next_drives_;
   bool drives_change_ = false;       ///< next_drives_ are others than drives_
-  std::vector<Excitation> asked_;    ///< excitations that the drives change to at the segment's end
+  AskedChanges asked_;               ///< of the drives, at the segment's end
   bool forces_have_jumped_ = false;  ///< at the segment's end, by a change that was asked for
   bool is_cut_ = false;              ///< the segment ends where it was cut
   DriveForms forms_;                 ///< of the drives, from now_ on; once the segment's end is prepared, from there on

@@ -23,15 +23,11 @@ FixedStepSolver::FixedStepSolver(const System& system, const std::vector<Excitat
       drives_(excitations, now_),
       awaits_inserted_(system.has_inserted_depth) {}
 
-void FixedStepSolver::pass_drives() {
-  if (!drives_passed_) drives_.pass(segment_.duration);
-  drives_passed_ = true;
-}
-
 void FixedStepSolver::go_to_end() {
-  pass_drives();
-  drives_passed_ = false;
   now_ = segment_.start + segment_.duration;
+  drives_.pass(segment_.duration);
+  asked_.for_each([&](const std::vector<Excitation>& change) { drives_.change(change, now_); });
+  asked_.clear();
   book_ = 1 - book_;
   // what is left of the step, so that the steps stay on their grid
   const double left = planned_ - segment_.duration;
@@ -149,8 +145,10 @@ void FixedStepSolver::cut(double duration) {
 }
 
 void FixedStepSolver::set_excitations(const std::vector<Excitation>& excitations) {
-  if (started_) pass_drives();
-  drives_.change(excitations, started_ ? segment_.start + segment_.duration : now_);
+  if (started_)
+    asked_.add(excitations);
+  else
+    drives_.change(excitations, now_);
 }
 
 }  // namespace vibratory_alignment

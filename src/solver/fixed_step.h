@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "solver/asked_changes.h"
 #include "solver/solver.h"
 #include "solver/step_method.h"
 
@@ -30,7 +31,6 @@ class FixedStepSolver final : public Solver {
 
  private:
   void go_to_end();
-  void pass_drives();
   void rest();
   /// Contacts, events and outcomes at the segment's end.
   void book_end(bool whole);
@@ -52,7 +52,7 @@ class FixedStepSolver final : public Solver {
   std::array<ContactBook, 2> books_;
   std::size_t book_ = 0;  ///< the one of now_; the other one is of the segment's end
   DriveLoads drives_;
-  bool drives_passed_ = false;  ///< drives_ are those from the segment's end on
+  AskedChanges asked_;  ///< of the drives, at the segment's end
   bool started_ = false;
   bool awaits_aligned_ = true, awaits_inserted_;
 

@@ -7,9 +7,11 @@
 #include <new>
 #include <string>
 
+#include "mechanics/site_rules.h"
 #include "mechanics/statics.h"
 #include "mechanics/system.h"
 #include "model/scaling.h"
+#include "solver/contact_point.h"
 #include "trial/contact_watch.h"
 #include "trial/energy.h"
 #include "trial/make_solver.h"
@@ -48,6 +50,8 @@ class Simulation::Impl {
       if (ended_) return;
       solver_->advance(limit_);
       has_segment_ = true;
+      is_changed_ = false;
+      end_where_it_settles();
     });
     return !ended_;
   }
@@ -59,15 +63,21 @@ class Simulation::Impl {
     // an instant has more digits than t: where t is the start but for these, nothing has passed yet
     double duration = t - segment().start;
     if (std::abs(duration) <= 2.3e-16 * std::abs(t)) duration = 0.0;
-    if (duration >= 0.0 && duration < segment().duration) guarded([&] { solver_->cut(duration); });
+    if (!(duration >= 0.0 && duration < segment().duration)) return;
+    guarded([&] { solver_->cut(duration); });
+    if (is_changed_) {
+      settling_.restart(excitations_, segment().end_time());
+    } else {
+      settling_.take_back();
+      settling_.book(segment());
+    }
   }
 
   void set_excitations(const std::vector<Excitation>& excitations) {
-    const double now = has_segment_ ? segment().end_time() : 0.0;
     std::copy_n(excitations.begin(), std::min(excitations.size(), excitations_.size()), excitations_.begin());
     guarded([&] { solver_->set_excitations(excitations); });
     contacts_.set_period(slowest_period(excitations_));
-    settling_.restart(excitations_, now);
+    go_on_changed();
   }
 
   void set_pressing_force(double pressing_force) {
@@ -79,7 +89,7 @@ class Simulation::Impl {
       pending_anchor_ = system_.y.anchor;
     else
       energy_.move_anchor_y(system_.y.anchor, system_.start);
-    settling_.restart(excitations_, has_segment_ ? segment().end_time() : 0.0);
+    go_on_changed();
   }
 
   TrialResult result() const {
@@ -126,6 +136,7 @@ class Simulation::Impl {
   double time_ = 0.0;
   State state_;
   bool has_segment_ = false, ended_ = false, reached_end_ = false;
+  bool is_changed_ = false;  ///< from the segment's end on
   Outcome outcome_ = Outcome::running;
   std::string failure_;
   std::optional<double> aligned_time_;
@@ -133,6 +144,19 @@ class Simulation::Impl {
   double cpu_start_, cpu_seconds_ = 0.0;
 
  private:
+  /// Nothing new would come until the segment's end, which may be that of the trial.
+  void end_where_it_settles() {
+    const std::optional<double> when = settling_.book(segment());
+    if (when && *when < segment().duration && outcome_ == Outcome::running && !options_.until) solver_->cut(*when);
+  }
+
+  /// What has settled may move again.
+  void go_on_changed() {
+    is_changed_ = true;
+    if (!ended_ && (outcome_ == Outcome::stalled || outcome_ == Outcome::jammed)) outcome_ = Outcome::running;
+    settling_.restart(excitations_, has_segment_ ? segment().end_time() : 0.0);
+  }
+
   /// Accounts for the segment that has been passed and decides whether the trial ends with it.
   void book() {
     const Segment& segment = solver_->segment();
@@ -142,7 +166,6 @@ class Simulation::Impl {
       if (pending_anchor_) energy_.move_anchor_y(*pending_anchor_, segment.end);
       pending_anchor_.reset();
     }
-    settling_.book(segment);
     time_ = segment.end_time();
     state_ = segment.end;
     if (outcome_ == Outcome::running) decide(segment);
@@ -164,9 +187,25 @@ class Simulation::Impl {
           event.kind == EventKind::touch && (event.site == Site::b1_floor || event.site == Site::b2_floor);
       if (on_floor || event.kind == EventKind::inserted) reached_end_ = true;
     }
+    // it may have stood there from the start
+    for (const Site site : {Site::b1_floor, Site::b2_floor})
+      if (segment.contacts[static_cast<std::size_t>(site)].touching()) reached_end_ = true;
     if (aligned_time_ && reached_end_) outcome_ = Outcome::inserted;
     if (outcome_ == Outcome::running && settling_.settled())
-      outcome_ = aligned_time_ ? Outcome::jammed : Outcome::stalled;
+      outcome_ = aligned_time_ && ends_in_slot(segment) ? Outcome::jammed : Outcome::stalled;
+  }
+
+  /// Both lower corners are below the top surface, between the walls (one that touches a wall is).
+  bool ends_in_slot(const Segment& segment) const {
+    const PlacedState end(segment.end);
+    for (const Site corner : {Site::b1, Site::b2}) {
+      const ContactState& contact = segment.contacts[static_cast<std::size_t>(corner)];
+      const Region region = insertion_region(system_, 0.0, true, contact);
+      const Vec2 place = site_point(system_, end, corner);
+      for (int i = 0; i < region.count; ++i)
+        if (region.conditions[i].value(place) < 0.0) return false;
+    }
+    return true;
   }
 
   /// Does a part of the trial. Whatever it throws ends the trial as failed, but for a lack of memory, which is none of

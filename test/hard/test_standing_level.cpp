@@ -33,7 +33,7 @@ void expect_rest(const Scene& scene, double start_tilt) {
   // the gripper's anchor lies below where one of the corners first touches
   const double anchor_y = scene.part.half_width * start_tilt - *scene.gripper.pressing_force;
   const double k = scene.base.stiffness_y, tilt = level_tilt(scene);
-  const TrialResult result = test::run(scene);
+  const TrialResult result = test::run(scene, {}, scene.trial.time_limit);
   ASSERT_NE(result.outcome, Outcome::failed) << scene.solver.name << ": " << result.failure;
   const State& end = result.final_state;
   EXPECT_NEAR(end.phi, tilt, 1.001 * held_tilt(scene) + 1e-14) << scene.solver.name;

@@ -1,5 +1,5 @@
 // Statics of the part on the base: heights of first touch from the outlines, equilibria from the balance of forces and
-// from closed forms (MODEL.md "Free motion", "Settled readings"; REFERENCE.md for R1).
+// from closed forms (MODEL.md "Free motion", "Settled readings").
 #include "mechanics/statics.h"
 
 #include <gtest/gtest.h>
@@ -344,7 +344,7 @@ trial: {time_limit: 3}
   EXPECT_LT(refused, 100);
 }
 
-// REFERENCE.md: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
+// R1: phi0 = f0 (l - x)/k_phi. There x_a = x, so friction makes the contact force vertical: moment f0 (l -
 // x).
 TEST(Equilibrium, of_r1_is_its_closed_form) {
   const Scene scene =

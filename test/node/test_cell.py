@@ -35,7 +35,8 @@ class Cell(AlignerTestCase):
             self.assertEqual(part['impacts'], sum(expected['impacts'].values()))
             self.assertLess(part['energy_residual'], 1e-6)
             time_unit, force_unit = (1.0, 1.0) if scene == 'gripper_si' else (5e-3, 8.0)
-            self.assertAlmostEqual(part['duration_ms'], 1e3 * expected['duration'] * time_unit, places=9)
+            self.assertAlmostEqual(part['aligned_ms'], 1e3 * expected['duration'] * time_unit, places=9)
+            self.assertAlmostEqual(part['time_ms'], 1e3 * expected['final']['t'] * time_unit, places=9)
             self.assertAlmostEqual(part['peak_force'], max(expected['peak_force'].values()) * force_unit, places=9)
 
     def test_faults_of_all_parts_are_told_before_the_first_is_aligned(self):
@@ -50,6 +51,16 @@ class Cell(AlignerTestCase):
                       '/faulty/parts[3] (part): time_limit: [1.0]'):
             self.assertIn(words, cell.stdout)
         self.assertNotIn('good', cell.stdout)
+
+    def test_time_that_is_up_gives_no_time_of_alignment(self):
+        rospy.set_param('/late/parts', [{'part': 'late', 'scene': 'fig2', 'time_limit': 0.001}])
+        reports = Listener('/late/report', String)
+        cell = subprocess.run([program('cell.py'), '__name:=late'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, timeout=60.0)
+        self.assertEqual(cell.returncode, 1)
+        self.assertIn('late: time_limit after 0.005 ms, not aligned, ', cell.stdout)
+        self.assertTrue(reports.wait_for(1, 5.0))
+        self.assertEqual(yaml.safe_load(reports.messages[0].data)[0]['aligned_ms'], None)
 
 
 if __name__ == '__main__':

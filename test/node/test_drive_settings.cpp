@@ -91,10 +91,20 @@ TEST(DriveSettings, ValueOfTheSceneBeyondTheRangeSurvivesOtherChanges) {
   AlignerConfig requested = settings.config();
   requested.time_scale = 0.5;
   requested.__clamp__();  // as the server does
+  settings.undo_clamping(requested);
   settings.change(requested);
   EXPECT_EQ(requested.amplitude, 5000.0);
   EXPECT_EQ(settings.excitations()[0].amplitude, 5000.0);
   EXPECT_EQ(settings.config().time_scale, 0.5);
+}
+
+// Who sets it without that server, as a goal does, means the end of the range.
+TEST(DriveSettings, EndOfTheRangeCanBeSetWhereTheSceneLiesBeyondIt) {
+  DriveSettings settings(small_scene::load(small_scene::path, {"excitation.amplitude=5000"}), 1.0);
+  AlignerConfig requested = settings.config();
+  requested.amplitude = 1000.0;
+  EXPECT_TRUE(settings.change(requested).empty());
+  EXPECT_EQ(settings.excitations()[0].amplitude, 1000.0);
 }
 
 TEST(DriveSettings, ChirpNeedsASweep) {

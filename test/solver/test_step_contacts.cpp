@@ -227,12 +227,15 @@ initial: {x: 0.0, y: 0.63}
 trial: {time_limit: 3.0, aligned_depth: 0.29}
 )");
   long looked = 0;
-  run(with_solver(s, GetParam(), 1e-3), [&](const Segment& g) {
-    if (g.loaded_count != 2 || g.loaded[0].normal_force[0] < 0.01) return;
-    EXPECT_NEAR(g.loaded[0].normal_force[0], g.loaded[1].normal_force[0], 1e-9);
-    EXPECT_NEAR(g.loaded[0].tangential_force[0], g.loaded[1].tangential_force[0], 1e-9);
-    ++looked;
-  });
+  run(
+      with_solver(s, GetParam(), 1e-3),
+      [&](const Segment& g) {
+        if (g.loaded_count != 2 || g.loaded[0].normal_force[0] < 0.01) return;
+        EXPECT_NEAR(g.loaded[0].normal_force[0], g.loaded[1].normal_force[0], 1e-9);
+        EXPECT_NEAR(g.loaded[0].tangential_force[0], g.loaded[1].tangential_force[0], 1e-9);
+        ++looked;
+      },
+      s.trial.time_limit);
   EXPECT_GT(looked, 1000);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../support/runs.h"
@@ -229,6 +230,88 @@ TEST(Changes, enter_where_the_segment_is_cut_at_last) {
     scene.trial.time_limit = 2.5;
     EXPECT_LT(test::distance(simulation.result().final_state, test::run(scene).final_state), 1e-12) << first;
   }
+}
+
+/// Two drives in the air: what they do shows in x and y.
+const std::string shaken_twice = R"(
+part: {half_width: 0.6, base_distance: 0.9, inertia: 0.2}
+slot: {clearance: 0.09}
+gripper: {stiffness: {x: 0.08, phi: 60.0}, damping: {x: 0.02, y: 0.05, phi: 0.03}, anchor: {x: 0.2, y: 5.0}}
+base: {stiffness: {y: 1.0e4}, damping: {y: 20.0}}
+contacts: [edges]
+excitation:
+  - {amplitude: 1.0, frequency: 20.0}
+  - {amplitude: 0.5, frequency: 13.0, direction: x}
+initial: {x: 0.2, y: 5.0}
+trial: {time_limit: 1.5}
+)";
+
+// Changes of the frequency, all made at one instant, of which the last leaves the second excitation to the first one:
+// where the segment is cut once more, before that, all of them enter as if they had been made there.
+TEST(Changes, enter_one_after_the_other_where_the_segment_is_cut_at_last) {
+  for (const auto& [solver, step] :
+       {std::pair{"event", 0.0}, {"implicit", 0.0}, {"auto", 0.0}, {"rk4", 0.05}, {"semi_implicit", 0.05}}) {
+    Scene scene = scene_of(shaken_twice);
+    scene.solver.name = solver;
+    if (step > 0.0) scene.solver.step = step;
+    std::vector<Excitation> both = scene.excitations;
+    both[0].frequency = 9.0;
+    both[1].frequency = 5.0;
+    std::vector<Excitation> first = {both[0]};
+    first[0].frequency = 11.0;
+    const auto changed_at = [&](double late, double when) {
+      Simulation simulation(scene);
+      while (simulation.advance() && simulation.segment().end_time() <= late) {
+      }
+      simulation.cut(late);
+      simulation.set_excitations(both);
+      simulation.set_excitations(first);
+      simulation.cut(when);
+      while (simulation.advance()) {
+      }
+      return simulation.result().final_state;
+    };
+    EXPECT_LT(test::distance(changed_at(0.04, 0.02), changed_at(0.02, 0.02)), 1e-13) << solver;
+    EXPECT_GT(test::distance(changed_at(0.04, 0.04), changed_at(0.02, 0.02)), 1e-4) << solver;
+  }
+}
+
+// A ball at rest in the air has settled at the 24th sixteenth of 2 pi, which is where its first segment ends. Cut
+// before that it goes on until then; changed where it is cut, even to what it is, for as long from there.
+TEST(Changes, before_a_trial_has_settled_let_it_go_on) {
+  const Scene scene = scene_of(
+      test::ball, {"gripper.anchor.y=5.0", "initial.y=5.0", "excitation.amplitude=0", "trial.time_limit=1000"});
+  const double settles = 23.0 * 2.0 * 3.14159265358979323846 / 16.0;
+  for (const bool is_changed : {false, true}) {
+    Simulation simulation(scene);
+    ASSERT_TRUE(simulation.advance());
+    EXPECT_NEAR(simulation.segment().end_time(), settles, 1e-12);
+    if (is_changed) simulation.set_excitations(scene.excitations);
+    simulation.cut(1.0);
+    while (simulation.advance()) {
+    }
+    EXPECT_EQ(simulation.result().outcome, Outcome::stalled);
+    EXPECT_NEAR(simulation.result().final_time, settles + (is_changed ? 1.0 : 0.0), 1e-12);
+  }
+}
+
+// What has stalled, and is watched for longer, goes on with a change: it aligns as if it had never rested.
+TEST(Changes, after_a_rest_go_on_to_other_outcomes) {
+  const Scene scene = scene_of(
+      test::ball, {"gripper={anchor: {y: 0.5}, damping: {y: 1.0}}", "excitation={amplitude: 0.0, frequency: 6.0}",
+                   "base={stiffness: {y: 1.0e3}, damping: {y: 60}}", "trial.time_limit=1000"});
+  SimulationOptions options;
+  options.until = 200.0;
+  Simulation simulation(scene, options);
+  while (simulation.advance() && simulation.result().outcome != Outcome::stalled) {
+  }
+  ASSERT_EQ(simulation.result().outcome, Outcome::stalled);
+  std::vector<Excitation> shaken = scene.excitations;
+  shaken[0].amplitude = 1.0;
+  simulation.set_excitations(shaken);
+  EXPECT_EQ(simulation.result().outcome, Outcome::running);
+  ASSERT_TRUE(simulation.advance());
+  EXPECT_EQ(simulation.result().outcome, Outcome::running);
 }
 
 TEST(Changes, however_many_at_one_instant_end_nothing) {

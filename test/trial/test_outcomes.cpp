@@ -151,6 +151,41 @@ TEST(Outcome, jammed_is_at_rest_in_the_slot_above_the_floor) {
   EXPECT_GT(corner(scene, result.final_state, 1.0).y, -0.5);
 }
 
+/// A part over its slot, with a little play.
+const std::string fits = R"(
+part: {half_width: 0.6, base_distance: 0.9, inertia: 0.2}
+slot: {clearance: 0.09, depth: 0.5}
+gripper: {stiffness: {x: 0.08, phi: 60.0}, damping: {x: 0.2, y: 0.5, phi: 0.3}, anchor: {x: 0.0, y: 1.5}}
+base: {stiffness: {y: 1.0e4}, damping: {y: 20.0}}
+contacts: [edges, walls]
+friction: {coefficient: 0.2}
+excitation: {amplitude: 0.0, frequency: 20.0}
+initial: {x: 0.0, y: 0.95, phi: 0.0}
+trial: {time_limit: 200.0, aligned_depth: 0.02}
+)";
+
+// A trial that starts on the floor, at balance, has no touch of it: it is inserted where it starts.
+TEST(Outcome, inserted_is_what_stands_on_the_floor_from_the_start) {
+  Scene scene = scene_of(fits, {"initial.y=null", "gripper.anchor.y=null", "gripper.pressing_force=0.5"});
+  for (const char* solver : {"event", "implicit", "auto"}) {
+    scene.solver.name = solver;
+    const TrialResult result = run(scene);
+    EXPECT_EQ(result.outcome, Outcome::inserted) << solver;
+    EXPECT_EQ(result.final_time, 0.0) << solver;
+    // the spring has given 2 k d of its 0.5
+    EXPECT_NEAR(corner(scene, result.final_state, 1.0).y, -0.5 - 0.5 / (2e4 + 1.0), 1e-12) << solver;
+  }
+}
+
+// It dips into the slot, comes out by its spring and rests above: aligned then, but not jammed in the slot.
+TEST(Outcome, stalled_is_what_has_left_the_slot) {
+  const Scene scene = scene_of(fits, {"initial.vy=-1.0"});
+  const TrialResult result = run(scene);
+  EXPECT_TRUE(result.aligned_time);
+  EXPECT_GT(corner(scene, result.final_state, 1.0).y, 0.5);
+  EXPECT_EQ(result.outcome, Outcome::stalled);
+}
+
 TEST(Outcome, stalled_is_at_rest_on_the_base) {
   const Scene scene = scene_of(
       slips_down, {"excitation.amplitude=0", "gripper.damping={x: 0.5, y: 0.5, phi: 1.3}", "trial.time_limit=400"});

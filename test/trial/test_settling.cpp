@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -90,6 +92,15 @@ TEST(Settling, common_period_of_several_excitations) {
   EXPECT_EQ(common_period({sine(20.0), sine(20.0 * std::sqrt(2.0))}), 0.0);
 }
 
+// Whatever their order: periods of the slowest are counted.
+TEST(Settling, common_period_does_not_depend_on_the_order) {
+  const double pi = 3.14159265358979323846;
+  for (const auto& [a, b, common] : {std::array{1.0, 100.0, 1.0}, {1.0, 4096.0, 1.0}, {20.0, 20.2, 0.2}}) {
+    EXPECT_NEAR(common_period({sine(a), sine(b)}), 2.0 * pi / common, 1e-12);
+    EXPECT_NEAR(common_period({sine(b), sine(a)}), 2.0 * pi / common, 1e-12);
+  }
+}
+
 TEST(Settling, period_of_the_slowest_excitation) {
   const double pi = 3.14159265358979323846;
   EXPECT_NEAR(slowest_period({sine(20.0), sine(3.0)}), 2.0 * pi / 3.0, 1e-15);
@@ -130,6 +141,88 @@ TEST(Settling, waits_for_the_end_of_a_sweep) {
   expect_settled(louder, 50.0, 100.0);
   expect_settled(other, 50.0, 150.0);
   expect_settled(sweep, 300.0, 300.0);
+}
+
+// One long flight holds instants without number. A few are looked at, and after it the part is judged as ever.
+TEST(Settling, is_looked_for_in_a_flight_of_any_length) {
+  SettlingWatch watch({sine(10.0, 0.0)}, 1e13);
+  Segment flight;
+  flight.duration = 1e12;
+  flight.order = 1;
+  flight.x[1] = flight.vx[0] = flight.end.vx = 1.0;
+  EXPECT_FALSE(watch.book(flight));
+  const double period = 2.0 * 3.14159265358979323846 / 16.0;
+  Segment rest;
+  rest.start.high = flight.duration;
+  rest.duration = 100.0;
+  const std::optional<double> settled = watch.book(rest);
+  ASSERT_TRUE(settled);
+  EXPECT_GT(*settled, 22.9 * period);
+  EXPECT_LT(*settled, 24.1 * period);
+}
+
+// A segment that is taken back leaves no trace, whatever was seen in it.
+TEST(Settling, forgets_what_is_taken_back) {
+  SettlingWatch watch({sine(10.0, 0.0)}, 1e4);
+  Segment rest;
+  rest.duration = 5.0;
+  EXPECT_FALSE(watch.book(rest));
+  rest.start.high = 5.0;
+  const std::optional<double> settled = watch.book(rest);
+  ASSERT_TRUE(settled);
+  for (const double cut : {0.0, 0.1, 1.0}) {
+    watch.take_back();
+    EXPECT_FALSE(watch.settled());
+    rest.duration = cut;
+    EXPECT_FALSE(watch.book(rest));
+  }
+  rest.start.high += rest.duration;
+  rest.duration = 5.0;
+  const std::optional<double> again = watch.book(rest);
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(rest.start.high + *again, 5.0 + *settled, 1e-12);
+}
+
+// A trial ends at the instant at which it has settled, and not with the step that sees it, which may be long: at the
+// 24th of the instants at which a part at rest is looked at.
+TEST(Settling, ends_the_trial_at_once_with_any_solver) {
+  Scene scene = scene_of(R"(
+part: {half_width: 0.6, base_distance: 0.9, inertia: 0.2}
+slot: {clearance: 0.09}
+gripper: {stiffness: {x: 0.08, phi: 60.0}, damping: {x: 0.2, y: 0.5, phi: 0.3}, anchor: {x: 0.2}, pressing_force: 0.5}
+base: {stiffness: {y: 1.0e4}, damping: {y: 20.0}}
+contacts: [edges, corners]
+friction: {coefficient: 0.2}
+excitation: {amplitude: 0.0, frequency: 20.0}
+initial: {x: 0.2}
+trial: {time_limit: 100.0}
+)");
+  for (const char* solver : {"event", "implicit", "auto"}) {
+    scene.solver.name = solver;
+    const TrialResult result = run(scene);
+    EXPECT_EQ(result.outcome, Outcome::stalled) << solver;
+    EXPECT_LT(result.final_time, 50.0) << solver;
+    const double instants = result.final_time / (2.0 * 3.14159265358979323846 / 16.0);
+    EXPECT_NEAR(instants, std::nearbyint(instants), 1e-9) << solver;
+  }
+}
+
+// A block on the edge of the slot, its weight 1e-9 beyond it: what turns it grows by 0.6 % a period from below 1e-11,
+// while y, and its differences, come to rest.
+TEST(Settling, is_not_said_of_what_grows_beside_what_comes_to_rest) {
+  Scene scene = scene_of(R"(
+part: {half_width: 0.6, base_distance: 0.9, inertia: 0.2}
+slot: {clearance: 0.1}
+gripper: {stiffness: {x: 0.0}, damping: {x: 1.0, y: 1.0, phi: 0.0}, anchor: {x: 0.7, y: 0.9}}
+base: {stiffness: {y: 1.0e4}, damping: {y: 200.0}}
+contacts: [edges]
+friction: {coefficient: 0.6}
+weight: 1.0
+excitation: {amplitude: 1.0e-3, frequency: 1000.0}
+initial: {x: 0.700000001, phi: 0.0, y: 0.8999}
+trial: {time_limit: 80.0}
+)");
+  EXPECT_LT(run(scene).final_state.phi, -1.0);
 }
 
 // Excitations without a common period never repeat: such a motion is not judged.
