@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/cases.h"
 #include "../support/scenes.h"
 #include "mechanics/site_rules.h"
 #include "model/number_text.h"
@@ -209,7 +210,7 @@ TEST(Equilibrium, is_found_however_the_part_lies) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   int found = 0, on_several = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::cases_of(3000); ++i) {
     const auto set = [](const char* key, double value) { return std::string(key) + "=" + std::to_string(value); };
     const double stiffness = std::pow(10.0, 2.5 + u(random));
     try {
@@ -225,8 +226,8 @@ TEST(Equilibrium, is_found_however_the_part_lies) {
       // nothing to rest on, or it slips off
     }
   }
-  EXPECT_GT(found, 2000);
-  EXPECT_GT(on_several, 100);
+  EXPECT_GT(found, test::cases_of(2000));
+  EXPECT_GT(on_several, test::cases_of(100));
 }
 
 // Of several heights at which it would be carried the part rests at the first one that it comes down to: so on an edge
@@ -236,7 +237,7 @@ TEST(Equilibrium, is_the_first_one_from_above) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   const auto set = [](const char* key, double value) { return std::string(key) + "=" + std::to_string(value); };
   int found = 0, hardly_covered = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::cases_of(2000); ++i) {
     const double stiffness = std::pow(10.0, 3.0 + u(random)), force = std::pow(10.0, u(random));
     const double covered = force / stiffness * std::pow(10.0, u(random));
     const bool is_level = i % 2 == 0;
@@ -257,8 +258,8 @@ TEST(Equilibrium, is_the_first_one_from_above) {
       // nothing carries it
     }
   }
-  EXPECT_GT(found, 1500);
-  EXPECT_GT(hardly_covered, 50);
+  EXPECT_GT(found, test::cases_of(1500));
+  EXPECT_GT(hardly_covered, test::cases_of(50));
 }
 
 // One contact and set-valued friction: it carries the horizontal force too, as far as f N.
@@ -414,7 +415,7 @@ TEST(Equilibrium, is_mirrored_to_the_last_digit) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   int found = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::cases_of(1000); ++i) {
     const double x = 0.5 * u(random), tilt = 0.3 * u(random), anchor = 0.3 * u(random),
                  force = std::pow(10.0, u(random));
     const auto mirrored = [&](double side) {
@@ -433,7 +434,7 @@ TEST(Equilibrium, is_mirrored_to_the_last_digit) {
     EXPECT_EQ(right.start.phi, -left.start.phi) << i;
     EXPECT_EQ(right.y.anchor, left.y.anchor) << i;
   }
-  EXPECT_GT(found, 500);
+  EXPECT_GT(found, test::cases_of(500));
 }
 
 // Mirrored scenes rest in mirrored places.

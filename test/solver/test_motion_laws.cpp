@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/cases.h"
 #include "../support/motion_check.h"
 #include "../support/random_scenes.h"
 #include "../support/scenes.h"
@@ -120,12 +121,7 @@ TEST_P(MotionLawsOf, hold_in_every_segment) {
 // Random scenes of all effects. The seeds beyond the first hundred have found faults before.
 TEST(MotionLaws, hold_in_random_scenes) {
   std::vector<unsigned> seeds = {152, 163, 169, 224, 231, 242, 260, 311, 614, 652, 902, 929, 1025, 1041};
-#ifdef __SANITIZE_ADDRESS__
-  const unsigned last = 20;  // this check of every instant, made to be read, is what takes longest there
-#else
-  const unsigned last = 100;
-#endif
-  for (unsigned seed = 1; seed <= last; ++seed) seeds.push_back(seed);
+  for (unsigned seed = 1; seed <= test::cases_of(100); ++seed) seeds.push_back(seed);
   for (const unsigned seed : seeds) {
     Scene scene = test::random_scene(seed);
     scene.name = "seed " + std::to_string(seed);
@@ -137,12 +133,7 @@ TEST(MotionLaws, hold_in_random_scenes) {
 
 // What a crossing of the tanh layer passes over would be seen: other contacts, ends of faces, kinks of the excitation.
 TEST(MotionLaws, hold_in_random_scenes_whose_layers_are_crossed) {
-#ifdef __SANITIZE_ADDRESS__
-  const unsigned last = 20;
-#else
-  const unsigned last = 150;
-#endif
-  for (unsigned seed = 1; seed <= last; ++seed) {
+  for (unsigned seed = 1; seed <= test::cases_of(150); ++seed) {
     Scene scene = test::random_scene(seed);
     scene.name = "seed " + std::to_string(seed) + " with layers";
     test::cross_layers(scene);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/cases.h"
 #include "../support/random_scenes.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
@@ -75,7 +76,7 @@ TEST(Outcome, a_part_on_the_base_is_not_aligned) {
 
 TEST(Outcome, random_scenes_align_only_in_the_slot) {
   int aligned = 0;
-  for (unsigned seed = 1; seed <= 150; ++seed) {
+  for (unsigned seed = 1; seed <= test::cases_of(150); ++seed) {
     Scene scene = test::random_scene(seed);
     scene.name = "seed " + std::to_string(seed);
     scene.slot.depth.reset();
@@ -86,7 +87,7 @@ TEST(Outcome, random_scenes_align_only_in_the_slot) {
     ++aligned;
     expect_aligned(scene, result.final_state, 0.0);
   }
-  EXPECT_GT(aligned, 50);
+  EXPECT_GT(aligned, test::cases_of(50));
 }
 
 TEST(Outcome, until_goes_on_and_still_reports_the_duration) {
