@@ -199,8 +199,9 @@ void Aligner::run() {
 }
 
 void Aligner::publish_due_samples() {
-  const Clock::time_point turn_end = Clock::now() + kPublishingTurn;
   Clock::time_point now = Clock::now();
+  const Clock::time_point turn_end = now + kPublishingTurn;
+  if (drop_lag(now)) return;  // held up since the last turn: not all that was due goes out at once
   Clock::time_point due = pacer_.due(next_due());
   while (activity_ == Activity::running && due <= now && now < turn_end) {
     if (!publish_next([&] { return Clock::now() < turn_end; })) break;
@@ -208,11 +209,17 @@ void Aligner::publish_due_samples() {
     now = Clock::now();
   }
   if (activity_ == Activity::running && due > now) publish_end_if_due(turn_end);
-  if (activity_ == Activity::running && pacer_.time_scale() > 0.0 && now - due > kLongestLag) {
-    ROS_WARN_THROTTLE(10.0, "Cannot keep up with ~time_scale %g: simulated time runs slower", pacer_.time_scale());
-    pace_meter_.add_dropped(std::chrono::duration<double>(now - due).count());
-    pacer_.start(pacer_.time_scale(), now, stage_->seconds(stage_->trial.time()));
-  }
+  if (activity_ == Activity::running) drop_lag(now);
+}
+
+/// Starts the pace anew where the next sample is too late. False: it is not.
+bool Aligner::drop_lag(Clock::time_point now) {
+  const Clock::duration lag = now - pacer_.due(next_due());
+  if (pacer_.time_scale() == 0.0 || lag <= kLongestLag) return false;
+  ROS_WARN_THROTTLE(10.0, "Cannot keep up with ~time_scale %g: simulated time runs slower", pacer_.time_scale());
+  pace_meter_.add_dropped(std::chrono::duration<double>(lag).count());
+  pacer_.start(pacer_.time_scale(), now, stage_->seconds(stage_->trial.time()));
+  return true;
 }
 
 /// Where the samples are far apart the motion is followed from one to the next, so that the end of the trial, which is

@@ -77,6 +77,7 @@ class Aligner {
   void run();
   double due_in() const;
   void publish_due_samples();
+  bool drop_lag(Clock::time_point now);
   void publish_end_if_due(Clock::time_point turn_end);
   bool publish_next(const std::function<bool()>& go_on, double latest = std::numeric_limits<double>::infinity());
   std::function<bool()> not_interrupted() const;

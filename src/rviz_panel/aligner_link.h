@@ -58,6 +58,9 @@ class AlignerLink {
   /// go together, and of several of one setting the last one counts.
   void change(const std::string& setting, double value);
 
+  /// Puts a refusal of the panel's own in the place of the node's answers.
+  void refuse(const std::string& why) { tell(true, why); }
+
   Status status();
 
   /// Samples since the last call, at most some thousands.

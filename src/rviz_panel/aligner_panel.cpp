@@ -91,7 +91,8 @@ AlignerPanel::AlignerPanel(QWidget* parent) : rviz::Panel(parent) {
   answer_->setObjectName("answer");
   answer_->setWordWrap(true);
   plot_ = new HistoryPlot;
-  settings_ = new SettingsForm([this](const std::string& setting, double value) { link_->change(setting, value); });
+  settings_ = new SettingsForm([this](const std::string& setting, double value) { link_->change(setting, value); },
+                               [this](const std::string& why) { link_->refuse(why); });
 
   auto* const body = new QWidget;
   auto* const column = new QVBoxLayout(body);
@@ -216,7 +217,14 @@ void AlignerPanel::set_node(const QString& name) {
   while (full.startsWith('/')) full.remove(0, 1);
   while (full.endsWith('/')) full.chop(1);
   std::string problem;
-  if (full.isEmpty() || !ros::names::validate("/" + full.toStdString(), problem)) full = kDefaultNode + 1;
+  if (full.isEmpty() || !ros::names::validate("/" + full.toStdString(), problem)) {
+    if (link_) {
+      node_->setText(QString::fromStdString(link_->node()));
+      link_->refuse("Node: " + name.toStdString() + ": " + (full.isEmpty() ? "must be a name" : problem));
+      return;
+    }
+    full = kDefaultNode + 1;
+  }
   full = "/" + full;
   node_->setText(full);
   if (link_ && link_->node() == full.toStdString()) return;
@@ -268,7 +276,7 @@ void AlignerPanel::show_presence(const AlignerLink::Status& status) {
   if (present) {
     words = status.result ? "ended" : status.running ? "running" : status.state ? "paused" : "waiting";
     if (status.state) words += ": " + QString::fromStdString(status.state->scene);
-  } else if (status.running) {
+  } else if (status.presence == Presence::absent && status.running) {
     words += " (what is shown is being replayed)";
   }
   set_colour(*lamp_, !present ? kRed : status.running ? kGreen : kGrey);
@@ -278,10 +286,11 @@ void AlignerPanel::show_presence(const AlignerLink::Status& status) {
   const QString whole = QString::fromStdString(status.answer);
   const QString brief =
       whole.size() > kLongestAnswer ? whole.left(kLongestAnswer) + QString::fromUtf8(" \u2026") : whole;
-  const QString answer = present ? coloured(brief, status.refused ? kRed : kGrey) : QString();
+  const bool is_told = !status.answer.empty() && (present || status.refused);
+  const QString answer = is_told ? coloured(brief, status.refused ? kRed : kGrey) : QString();
   if (answer_->text() != answer) answer_->setText(answer);
   if (answer_->toolTip() != whole) answer_->setToolTip(whole);
-  answer_->setVisible(present && !status.answer.empty());
+  answer_->setVisible(is_told);
 }
 
 void AlignerPanel::show_progress(const AlignerLink::Status& status) {

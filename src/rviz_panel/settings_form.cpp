@@ -21,7 +21,8 @@ QString plain(double number) {
 
 }  // namespace
 
-SettingsForm::SettingsForm(Change change, QWidget* parent) : QWidget(parent), change_(std::move(change)) {
+SettingsForm::SettingsForm(Change change, Refusal refuse, QWidget* parent)
+    : QWidget(parent), change_(std::move(change)), refuse_(std::move(refuse)) {
   setObjectName("settings");
   auto* const grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -50,7 +51,11 @@ SettingsForm::SettingsForm(Change change, QWidget* parent) : QWidget(parent), ch
 
 void SettingsForm::add_number(QGridLayout& grid, const char* title, const char* setting, double AlignerConfig::*value) {
   const AlignerConfig &least = AlignerConfig::__getMin__(), &most = AlignerConfig::__getMax__();
-  Number number{setting, value, new NumberField, new QLabel};
+  const auto refuse = [this, setting, low = least.*value, high = most.*value](const QString& typed) {
+    const QString allowed = QString(": must be a number from %1 to %2").arg(low).arg(high);
+    refuse_((QString(setting) + ": " + typed + allowed).toStdString());
+  };
+  Number number{setting, value, new NumberField(refuse), new QLabel};
   number.field->setObjectName(setting);
   number.field->setRange(least.*value, most.*value);
   number.field->setToolTip(QString("from %1 to %2; Enter puts it in force").arg(least.*value).arg(most.*value));

@@ -30,9 +30,10 @@ struct SettingUnits {
 class SettingsForm : public QWidget {
  public:
   using Change = std::function<void(const std::string& setting, double value)>;
+  using Refusal = std::function<void(const std::string& why)>;
 
-  /// `change` is called when the user changes a value.
-  explicit SettingsForm(Change change, QWidget* parent = nullptr);
+  /// `change` is called when the user changes a value, `refuse` when what is typed is none.
+  SettingsForm(Change change, Refusal refuse, QWidget* parent = nullptr);
 
   /// Shows what is in force; a field in which the user is typing stays as it is.
   void show_settings(const AlignerConfig& settings, const SettingUnits& units);
@@ -50,6 +51,7 @@ class SettingsForm : public QWidget {
   QString note_of(const Number& number, double value, const SettingUnits& units) const;
 
   Change change_;
+  Refusal refuse_;
   QCheckBox* enabled_;
   QComboBox* waveform_;
   std::vector<Number> numbers_;

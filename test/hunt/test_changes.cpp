@@ -50,7 +50,7 @@ TEST(RandomChanges, call_for_everything_there_is) {
     int cuts_alone = 0, late = 0, presses = 0, no_press = 0, off = 0, fewer = 0, at_once = 0, tiny = 0, both = 0,
         others = 0;
     std::set<Waveform> waveforms;
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
       const Trial trial = random_trial(seed, range);
       double last = -1.0;
       for (const Change& c : trial.changes) {

@@ -76,7 +76,7 @@ class Diagnostics(AlignerTestCase):
         self.settings.update_configuration({'time_scale': 1000.0})
         client = self.align(scene=self.changed_scene(
             trial={'time_limit': 1e6}, gripper={'stiffness': {'x': 1000.0, 'phi': 60.0}},
-            excitation=[{'amplitude': 1.0, 'frequency': 20.0}, {'amplitude': 1.0, 'frequency': 33.1}]))
+            excitation=[{'amplitude': 1.0, 'frequency': 20.0}, {'amplitude': 1.0, 'frequency': 1100.0 ** 0.5}]))
         values, levels = self.next_report()
         self.assertEqual(levels['pace'], DiagnosticStatus.WARN, values)
         self.assertIn('cannot keep up', values['pace']['message'])

@@ -1,8 +1,12 @@
 #!/usr/bin/env python3
 """The pace of the trial against the wall clock."""
+import os
+import signal
 import time
+from xmlrpc.client import ServerProxy
 
 import dynamic_reconfigure.client
+import rosgraph
 import rostest
 
 from aligner_test_case import AlignerTestCase
@@ -52,6 +56,22 @@ class TimeScale(AlignerTestCase):
         self.assertTrue(self.states.wait_for(301, 5.0))
         for i, state in enumerate(self.states.messages[:300]):
             self.assertEqual(state.tau, i * 0.01)
+
+    def test_a_node_that_was_held_up_sends_no_burst_but_every_sample(self):
+        self.client.update_configuration({'time_scale': 0.002})  # 40 samples a second, of which 300 are the trial
+        self.reset(self.states)
+        self.call('start')
+        self.assertTrue(self.states.wait_for(20))
+        node = ServerProxy(rosgraph.Master('/test_time_scale').lookupNode('/aligner')).getPid('/test_time_scale')[2]
+        os.kill(node, signal.SIGSTOP)
+        time.sleep(3.0)
+        before = len(self.states.messages)
+        os.kill(node, signal.SIGCONT)
+        time.sleep(1.0)
+        self.assertLess(len(self.states.messages) - before, 80, 'not the 120 of three seconds at once')
+        self.client.update_configuration({'time_scale': 0.1})
+        self.assertTrue(self.states.wait_for(301, 15.0))
+        self.assertEqual([state.tau for state in self.states.messages], [i * 0.01 for i in range(301)])
 
 
 if __name__ == '__main__':

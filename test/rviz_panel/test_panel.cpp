@@ -145,6 +145,58 @@ TEST_F(PanelTest, WhatIsTypedIsInForceInTheNode) {
   EXPECT_EQ(in_node<double>("pressing_force"), 0.35) << "other settings stay";
 }
 
+// The fields show exponents themselves.
+TEST_F(PanelTest, NumbersMayHaveAnExponentAndTheirUnit) {
+  const auto enter = [this](const char* text) {
+    type("pressing_force", text);
+    QTest::keyClick(number("pressing_force").findChild<QLineEdit*>(), Qt::Key_Enter);
+  };
+  const auto becomes = [](double value) {
+    return wait_until([value] { return in_node<double>("pressing_force") == value; });
+  };
+  enter("5e-2");
+  EXPECT_TRUE(becomes(0.05)) << in_node<double>("pressing_force");
+  enter("1.5E+1");
+  EXPECT_TRUE(becomes(15.0)) << in_node<double>("pressing_force");
+  enter(" .25 N");  // not its unit
+  EXPECT_TRUE(wait_until([this] { return says("answer", "pressing_force: .25 N: must be a number from 0 to 1000"); }));
+  enter("4e-10");
+  EXPECT_TRUE(becomes(4e-10)) << in_node<double>("pressing_force");
+  EXPECT_EQ(number("pressing_force").text(), QString::fromUtf8("4e-10 F\u2081"));
+  change_elsewhere("pressing_force", 0.35);
+}
+
+TEST_F(PanelTest, WhatIsNoNumberOfTheRangeIsRefusedAsAWhole) {
+  const double before = in_node<double>("amplitude");
+  for (const char* text : {"0,5", "1.2.3", "nan", "-3", "1e9", "two", "5 5"}) {
+    type("amplitude", text);
+    QTest::keyClick(number("amplitude").findChild<QLineEdit*>(), Qt::Key_Enter);
+    const std::string why = std::string("amplitude: ") + text + ": must be a number from 0 to 1000";
+    EXPECT_TRUE(wait_until([&] { return says("answer", why.c_str()); })) << why;
+    EXPECT_EQ(number("amplitude").value(), before) << text;
+  }
+  EXPECT_EQ(in_node<double>("amplitude"), before);
+}
+
+// Six digits are shown; Enter without typing changes nothing.
+TEST_F(PanelTest, DigitsThatAreNotShownStay) {
+  change_elsewhere("frequency", 20.123456789);
+  ASSERT_TRUE(wait_until([this] { return number("frequency").value() == 20.123456789; }));
+  EXPECT_EQ(number("frequency").text().left(7), "20.1235");
+  number("frequency").setFocus();
+  QTest::keyClick(number("frequency").findChild<QLineEdit*>(), Qt::Key_Enter);
+  QTest::qWait(300);
+  EXPECT_EQ(in_node<double>("frequency"), 20.123456789);
+}
+
+TEST_F(PanelTest, ANameThatIsNoneLeavesTheNodeAlone) {
+  panel_.set_node("left/aligner");
+  panel_.set_node("bad name!");
+  EXPECT_EQ(child<QLineEdit>(panel_, "node").text(), "/left/aligner");
+  EXPECT_TRUE(wait_until([this] { return says("answer", "Node: bad name!: "); }));
+  panel_.set_node("/aligner");
+}
+
 TEST_F(PanelTest, ShowsWhatOthersChange) {
   change_elsewhere("frequency", 23.5);
   EXPECT_TRUE(wait_until([this] { return number("frequency").value() == 23.5; }));
