@@ -7,6 +7,7 @@ A client of the action ~align of aligner_node, as a sequencer of one's own would
   ~patience wall time for one part [s] (default: 120)
 Topic ~report (std_msgs/String, latched): a list of results as YAML, when the last part is done.
 The fields of all parts are checked before the first one is aligned; what they name, like a scene, by the aligner.
+Interrupted, it cancels the goal that is under way.
 Exit status: 0 every part is in its slot, 1 some are not, the aligner does not answer, or a part cannot be asked for.
 """
 import math
@@ -23,6 +24,7 @@ from std_msgs.msg import String
 
 from vibratory_alignment.msg import AlignAction, AlignGoal
 
+UNDER_WAY = (GoalStatus.PENDING, GoalStatus.ACTIVE)
 STATES = {value: name.lower() for name, value in vars(GoalStatus).items() if name.isupper()}
 
 
@@ -71,8 +73,18 @@ def wait(condition, seconds):
     return condition()
 
 
+def cancel(client):
+    """While ROS shuts down: else the aligner would go on with the goal, and take no other one."""
+    if client.gh is None or client.get_state() not in UNDER_WAY:
+        return
+    client.cancel_goal()
+    end = time.time() + 2.0
+    while client.get_state() in UNDER_WAY and time.time() < end:
+        time.sleep(0.02)
+
+
 def align(client, name, goal, patience):
-    """Has one part aligned; what became of it, for the report."""
+    """Has one part aligned; what became of it, for the report. Raises ROSInterruptException when ROS shuts down."""
     reported = [0]
 
     def on_feedback(feedback):
@@ -83,7 +95,10 @@ def align(client, name, goal, patience):
                           1e3 * feedback.misalignment)
 
     client.send_goal(goal, feedback_cb=on_feedback)
-    if not wait(lambda: client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE), patience):
+    is_done = wait(lambda: client.get_state() not in UNDER_WAY, patience)
+    if rospy.is_shutdown():
+        raise rospy.ROSInterruptException
+    if not is_done:
         rospy.logwarn('%s: takes too long: cancelled', name)
         client.cancel_goal()
     wait(lambda: client.get_result() is not None, 5.0)
@@ -100,7 +115,10 @@ def align(client, name, goal, patience):
 def main():
     rospy.init_node('cell')
     server = rospy.resolve_name(rospy.get_param('~aligner', 'aligner')) + '/align'
-    parts = rospy.get_param('~parts', None)
+    parts, patience = rospy.get_param('~parts', None), rospy.get_param('~patience', 120.0)
+    if isinstance(patience, bool) or not isinstance(patience, (int, float)) or not patience > 0.0:
+        rospy.logfatal('%s: must be a number > 0 [s]: %r', rospy.resolve_name('~patience'), patience)
+        return 1
     goals = goals_of(parts)
     if goals is None:
         return 1
@@ -109,12 +127,17 @@ def main():
     if not wait(lambda: client.action_client.wait_for_server(rospy.Duration(0.001)), 30.0):
         rospy.logfatal('%s does not answer', server)
         return 1
-    patience = rospy.get_param('~patience', 120.0)
-    reports = [align(client, name_of(part), goal, patience) for part, goal in zip(parts, goals)]
+    rospy.on_shutdown(lambda: cancel(client))
+    try:
+        reports = [align(client, name_of(part), goal, patience) for part, goal in zip(parts, goals)]
+    except rospy.ROSInterruptException:
+        rospy.logwarn('interrupted: the part under way is given up, those after it are not aligned')
+        return 1
     for report in reports:
         if 'outcome' in report:
-            aligned = 'aligned after %(aligned_ms).3g ms, ' if report['aligned_ms'] is not None else 'not aligned, '
-            rospy.loginfo(('%(part)s: %(outcome)s after %(time_ms).3g ms, ' + aligned +
+            aligned = 'not aligned, ' if report['aligned_ms'] is None else 'aligned after %(aligned_ms).3g ms, '
+            rospy.loginfo(('%(part)s: %(outcome)s after %(time_ms).3g ms, ' +
+                           ('' if report['outcome'] == 'aligned' else aligned) +
                            '%(impacts)d impacts, peak %(peak_force).3g N') % report)
         else:
             rospy.logerr('%(part)s: %(state)s: %(text)s', report)

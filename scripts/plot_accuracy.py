@@ -66,7 +66,12 @@ def main():
     parser.add_argument("--format", default="png", help="png, svg or pdf")
     parser.add_argument("--title", default="", help="title of the figure")
     arguments = parser.parse_args()
-    lines, floor = read_lines(arguments.table)
+    try:
+        lines, floor = read_lines(arguments.table)
+    except OSError as error:
+        sys.exit("plot_accuracy.py: %s: %s" % (arguments.table, error.strerror or error))
+    except (KeyError, TypeError, ValueError) as error:
+        sys.exit("plot_accuracy.py: %s: is no table of `align accuracy --csv` (%s)" % (arguments.table, error))
     if not lines:
         sys.exit(arguments.table + ": holds no run")
     try:

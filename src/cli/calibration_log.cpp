@@ -1,5 +1,7 @@
 #include "cli/calibration_log.h"
 
+#include <sys/file.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -33,27 +35,34 @@ CalibrationAnswer answer_of(const nlohmann::json& line) {
 
 }  // namespace
 
-CalibrationLog::CalibrationLog(const std::string& path, const std::string& fingerprint, bool resume) : path_(path) {
-  take_over(fingerprint, resume);
-  file_ = std::fopen(path.c_str(), "ab");
-  if (file_ == nullptr) throw UsageError("--log: " + path + ": cannot be written: " + std::strerror(errno));
-  std::error_code unknown;
-  if (std::filesystem::file_size(path, unknown) == 0 || unknown) write(head_line(fingerprint));
+CalibrationLog::CalibrationLog(const std::string& path, const std::string& fingerprint, bool resume)
+    : path_(path), file_(nullptr, std::fclose) {
+  const auto size = [&path] {
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+    return unknown ? 0 : bytes;
+  };
+  const std::uintmax_t size_before = size(), whole = take_over(fingerprint, resume);
+  file_.reset(std::fopen(path.c_str(), "ab"));
+  if (!file_) throw UsageError("--log: " + path + ": cannot be written: " + std::strerror(errno));
+  // where the file system has no locks the file is written without one
+  const bool is_locked = flock(fileno(file_.get()), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (is_locked || size() != size_before)
+    throw UsageError("--log: " + path + ": another `align calibrate` is writing it");
+  // a last line without an end
+  if (size() > whole) std::filesystem::resize_file(path, whole);
+  if (whole == 0) write(head_line(fingerprint));
 }
 
-CalibrationLog::~CalibrationLog() {
-  if (file_ != nullptr) std::fclose(file_);
-}
-
-/// Reads what the file has, and cuts off a last line without an end.
-void CalibrationLog::take_over(const std::string& fingerprint, bool resume) {
+/// Reads what the file has. Returns the bytes of its whole lines.
+std::uintmax_t CalibrationLog::take_over(const std::string& fingerprint, bool resume) {
   const std::string name = "--log: " + path_, head = head_line(fingerprint);
   const auto refuse_other = [&] {
     throw UsageError(name + (resume ? ": is of another calibration (its files or this version differ)"
                                     : ": is a file already; give another name, or --resume to go on with it"));
   };
   std::error_code none;
-  if (!std::filesystem::exists(path_, none)) return;
+  if (!std::filesystem::exists(path_, none)) return 0;
   if (!std::filesystem::is_regular_file(path_, none)) throw UsageError(name + ": is no file");
   WholeLines lines(name, path_);
   std::string line;
@@ -67,7 +76,7 @@ void CalibrationLog::take_over(const std::string& fingerprint, bool resume) {
   const std::string start = WholeLines(name, path_).take(head.size() + 1);
   const bool is_torn_head = resume && head.compare(0, start.size(), start) == 0;
   if (lines.bytes() == 0 && !start.empty() && !is_torn_head) refuse_other();
-  if (std::filesystem::file_size(path_) > lines.bytes()) std::filesystem::resize_file(path_, lines.bytes());
+  return lines.bytes();
 }
 
 void CalibrationLog::read_answer(const std::string& line, std::size_t number) {
@@ -94,7 +103,7 @@ void CalibrationLog::keep(const CalibrationPlace& place, const std::vector<doubl
 }
 
 void CalibrationLog::write(const std::string& line) {
-  if (std::fputs((line + "\n").c_str(), file_) < 0 || std::fflush(file_) != 0)
+  if (std::fputs((line + "\n").c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0)
     throw OutputError(path_, std::strerror(errno));
 }
 

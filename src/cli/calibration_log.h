@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,12 +20,9 @@ namespace vibratory_alignment {
 class CalibrationLog {
  public:
   /// `fingerprint`: of the calibration. `resume`: reads the answers that the file has and goes on behind them; a file
-  /// that is not there is begun. Throws UsageError for a file that cannot be read or written, that is not of this
-  /// calibration (`resume`), or that has answers to be lost (not `resume`).
+  /// that is not there is begun. Throws UsageError for a file that cannot be read or written, that another process
+  /// writes, that is not of this calibration (`resume`), or that has answers to be lost (not `resume`).
   CalibrationLog(const std::string& path, const std::string& fingerprint, bool resume);
-  ~CalibrationLog();
-  CalibrationLog(const CalibrationLog&) = delete;
-  CalibrationLog& operator=(const CalibrationLog&) = delete;
 
   /// None if the file has not got it. Throws UsageError if it has it for other values.
   std::optional<CalibrationAnswer> known(const CalibrationPlace& place, const std::vector<double>& values) const;
@@ -37,12 +36,12 @@ class CalibrationLog {
     CalibrationAnswer answer;
   };
 
-  void take_over(const std::string& fingerprint, bool resume);
+  std::uintmax_t take_over(const std::string& fingerprint, bool resume);
   void read_answer(const std::string& line, std::size_t number);
   void write(const std::string& line);
 
   std::string path_;
-  std::FILE* file_ = nullptr;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::map<CalibrationPlace, Entry> known_;
 };
 

@@ -110,7 +110,7 @@ Dimension StudyReader::read_dimension(TreeReader& entry) {
     } else if (node.IsMap()) {
       count = read_range(entry.section(path), key);
     } else {
-      entry.fault(path, "must be a list of values, or a range {from: ..., to: ..., count: ...}");
+      entry.fault(path, "must be a list of at least one value, or a range {from: ..., to: ..., count: ...}");
     }
     refuse_overlap(entry, key);
     if (dimension.keys.empty())

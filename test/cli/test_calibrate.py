@@ -1,5 +1,6 @@
 """`align calibrate`: what is found, and a search that is interrupted and goes on from its log."""
 
+import fcntl
 import json
 import os
 import signal
@@ -148,6 +149,14 @@ class CalibrateTest(AlignTestCase):
         self.assertIn("cannot be written", self.calibrate("--log", self.path("no/such/log"), status=2).stderr)
 
     @unittest.skipUnless(os.path.exists("/proc/self/mem"), "a regular file that can be opened and not read")
+    def test_refuses_a_log_that_another_one_writes(self):
+        log = self.path("log.jsonl")
+        with open(log, "w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            process = self.calibrate("--log", log, "--resume", status=2)
+        self.assertIn("log.jsonl: another `align calibrate` is writing it", process.stderr)
+        self.assertEqual(self.read("log.jsonl"), "")
+
     def test_an_error_of_reading_is_not_the_end_of_the_log(self):
         os.symlink("/proc/self/mem", self.path("log.jsonl"))
         process = self.calibrate("--log", self.path("log.jsonl"), "--resume", status=2)

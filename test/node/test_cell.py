@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
 """The example of a cell: what it reports is what the command line computes with the same settings."""
 import json
+import signal
 import subprocess
+import time
 
+import dynamic_reconfigure.client
 import rospy
 import rostest
 import yaml
+from actionlib_msgs.msg import GoalStatus
 from std_msgs.msg import String
+from vibratory_alignment.msg import AlignActionFeedback, AlignActionResult
 
 from aligner_test_case import AlignerTestCase, Listener, align, program
 
@@ -61,6 +66,31 @@ class Cell(AlignerTestCase):
         self.assertIn('late: time_limit after 0.005 ms, not aligned, ', cell.stdout)
         self.assertTrue(reports.wait_for(1, 5.0))
         self.assertEqual(yaml.safe_load(reports.messages[0].data)[0]['aligned_ms'], None)
+
+    def test_under_ctrl_c_the_goal_is_cancelled_and_no_other_part_begins(self):
+        dynamic_reconfigure.client.Client('/aligner', timeout=15.0).update_configuration({'time_scale': 1e-6})
+        rospy.set_param('/ended/parts', [{'part': 'one'}, {'part': 'two'}])
+        feedback, result = Listener('/aligner/align/feedback', AlignActionFeedback), Listener('/aligner/align/result',
+                                                                                             AlignActionResult)
+        cell = subprocess.Popen([program('cell.py'), '__name:=ended'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                universal_newlines=True)
+        self.assertTrue(feedback.wait_for(2, 20.0))
+        cell.send_signal(signal.SIGINT)
+        output = cell.communicate(timeout=20.0)[0]
+        self.assertEqual(cell.returncode, 1)
+        self.assertIn('interrupted', output)
+        self.assertNotIn('two', output)
+        self.assertTrue(result.wait_for(1, 5.0))
+        self.assertEqual(result.messages[0].status.status, GoalStatus.PREEMPTED)
+        time.sleep(0.5)
+        self.assertEqual(len(result.messages), 1, 'no other goal')
+
+    def test_patience_must_be_a_time(self):
+        rospy.set_param('/hasty', {'parts': [{'part': 'one'}], 'patience': 'abc'})
+        cell = subprocess.run([program('cell.py'), '__name:=hasty'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, timeout=20.0)
+        self.assertEqual(cell.returncode, 1)
+        self.assertIn("/hasty/patience: must be a number > 0 [s]: 'abc'", cell.stdout)
 
 
 if __name__ == '__main__':

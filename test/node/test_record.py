@@ -12,7 +12,7 @@ import unittest
 import rospy
 import rostest
 
-from aligner_test_case import align, scene_path
+from aligner_test_case import align, program, scene_path
 from bag_reader import difference, picture, plain, read, types
 
 TOPICS = ['contacts', 'markers', 'parameter_updates', 'reaction/a1', 'reaction/a2', 'restarts', 'result', 'state']
@@ -66,6 +66,13 @@ class Record(unittest.TestCase):
                              stderr=subprocess.STDOUT, universal_newlines=True, timeout=60.0)
         self.assertLess(time.time() - start, 25.0, 'the node waits 30 s for the recorder')
         self.assertIn('REQUIRED process [record_aligner', run.stdout)
+
+    def test_words_that_rosbag_would_take_for_something_else_are_refused(self):
+        for word, why in (('bad topic', 'no name of a topic'), ('--min-space=abc', 'least_free: abc')):
+            run = subprocess.run([program('record_bag'), os.path.join(self.directory.name, 'none.bag'), word],
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=40.0)
+            self.assertEqual(run.returncode, 1)
+            self.assertIn(why, run.stderr)
 
     def test_action_is_recorded_on_request(self):
         for request, expected in (('false', set()), ('true', {'goal', 'cancel', 'feedback', 'result', 'status'})):

@@ -67,6 +67,18 @@ class View(AlignerTestCase):
                     bag.write('/%s/aligner/state' % side, listener.messages[0])
             for side in HALF_WIDTHS:
                 self.assert_shows(self.view('/%s/aligner' % side, '--bag', file.name), side)
+            self.assert_refuses('no aligner /other in it, but /left/aligner, /right/aligner', '/other', '--bag', file.name)
+
+    def assert_refuses(self, words, *arguments):
+        process = subprocess.run((program('view_trial'),) + arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 universal_newlines=True)
+        self.assertEqual(process.returncode, 1)
+        self.assertNotIn('Traceback', process.stderr)
+        self.assertIn(words, process.stderr)
+
+    def test_files_that_are_no_bag_are_refused(self):
+        self.assert_refuses('/no/such.bag: ', '--bag', '/no/such.bag')
+        self.assert_refuses(__file__ + ': ', '--bag', __file__)
 
     def test_each_aligner_has_an_rviz_of_its_own(self):
         for name in ('first', 'second'):
