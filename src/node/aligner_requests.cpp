@@ -96,8 +96,12 @@ bool Aligner::on_step_by(StepBy::Request& request, StepBy::Response& response) {
   if (by_samples && request.duration != 0.0) {
     fault << "samples: " << request.samples << " and duration: " << request.duration << ": give one, the other is 0";
   } else if (!(samples >= 1.0 && samples <= kLongestStep)) {
+    const double least = by_samples ? 1.0 : stage_->interval * unit;
     fault << (by_samples ? "samples: " : "duration: ") << (by_samples ? request.samples : request.duration)
-          << ": must be 1 to " << kLongestStep << " samples; one lasts " << stage_->interval * unit;
+          << ": must be from " << least << " to " << kLongestStep * least;
+    if (!by_samples)
+      fault << (stage_->scene.units == Units::si ? " s" : " (dimensionless)") << ", 1 to " << kLongestStep
+            << " samples";
   } else {
     fault << refusal_to_step();
   }

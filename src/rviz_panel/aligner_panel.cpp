@@ -15,8 +15,8 @@
 #include <QVBoxLayout>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "node/quantity_text.h"
 #include "rviz_panel/history_plot.h"
+#include "rviz_panel/quantity_label.h"
 #include "rviz_panel/scene_list.h"
 #include "rviz_panel/settings_form.h"
 
@@ -43,31 +43,25 @@ const char* colour_of(const std::string& outcome) {
   return outcome == "failed" ? kRed : kAmber;
 }
 
-QString quantity(double value, const char* unit, bool has_unit) {
-  QString text = QString::fromStdString(quantity_text(value, unit, has_unit));
-  if (has_unit) text.replace(" u", QString::fromUtf8(" \u00B5"));
-  return text;
-}
-
 /// "aligned after 16.4 ms, impact mode, 15 impacts, at most 36.4 N"; "inserted at 25 ms, aligned after 20.3 ms, ..."
 QString words_of(const AlignerResult& result) {
   QString words = QString::fromStdString(result.outcome).replace('_', ' ');
   if (result.outcome == "failed") return words + ": " + QString::fromStdString(result.failure);
-  if (result.outcome != "aligned") words += " at " + quantity(result.time, "s", result.has_scales);
+  if (result.outcome != "aligned") words += " at " + quantity_label(result.time, "s", result.has_scales);
   if (!std::isnan(result.duration))
     words += (result.outcome == "aligned" ? "" : ", aligned") +
-             (" after " + quantity(result.duration, "s", result.has_scales));
+             (" after " + quantity_label(result.duration, "s", result.has_scales));
   if (result.mode != "none") words += ", " + QString::fromStdString(result.mode) + " mode";
   unsigned impacts = 0;
   for (const unsigned count : result.impacts) impacts += count;
   words += QString(", %1 impacts").arg(impacts);
   const double peak = *std::max_element(result.peak_force.begin(), result.peak_force.end());
-  return words + ", at most " + quantity(peak, "N", result.has_scales);
+  return words + ", at most " + quantity_label(peak, "N", result.has_scales);
 }
 
 QString words_of(const AlignerState& state) {
-  return "misalignment " + quantity(state.misalignment, "m", state.has_scales) + " at " +
-         quantity(state.time, "s", state.has_scales);
+  return "misalignment " + quantity_label(state.misalignment, "m", state.has_scales) + " at " +
+         quantity_label(state.time, "s", state.has_scales);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <QLabel>
 #include <QSignalBlocker>
 
-#include "node/quantity_text.h"
+#include "rviz_panel/quantity_label.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -109,9 +109,9 @@ QString SettingsForm::note_of(const Number& number, double value, const SettingU
     return QString("%1 Hz").arg(value / (2.0 * M_PI * units.time), 0, 'g', 4);
   }
   if (number.setting == "amplitude" && units.turns) {
-    return QString::fromStdString(quantity_text(value * units.force * units.length, "N m", true));
+    return quantity_label(value * units.force * units.length, "N m", true);
   }
-  return QString::fromStdString(quantity_text(value * units.force, "N", true));
+  return quantity_label(value * units.force, "N", true);
 }
 
 }  // namespace vibratory_alignment
