@@ -53,8 +53,8 @@ struct Fault {
 TEST(StudyFile, FaultsAreRefusedAtTheirPlace) {
   const Fault cases[] = {
       {"varry: {initial.x: [1]}", "varry: ", "did you mean vary?"},
-      {"vary: {initial.x: 0.3}", "vary.initial.x: 0.3: ", "a list of values, or a range"},
-      {"vary: {initial.x: []}", "vary.initial.x: ", "a list of values"},
+      {"vary: {initial.x: 0.3}", "vary.initial.x: 0.3: ", "a list of at least one value, or a range"},
+      {"vary: {initial.x: []}", "vary.initial.x: ", "a list of at least one value"},
       {"vary: [{initial.x: [0.2, 0.3], initial.phi: [0]}]", "vary.0.initial.phi: ", "equally many"},
       {"vary: [{initial.x: [0.2], initial.phi: {from: 0, to: 1}}]\nsamples: {count: 2}",
        "vary.0.initial.phi: ", "sampled"},
