@@ -19,6 +19,7 @@ constexpr std::size_t kKeptSamples = 5000;  ///< until they are taken
 constexpr std::chrono::milliseconds kLookInterval(1000);
 constexpr std::chrono::milliseconds kPatience(3000);   ///< with a node that does not answer
 constexpr std::chrono::milliseconds kStandstill(400);  ///< without a sample: the trial stands still
+constexpr std::chrono::milliseconds kSilence(4000);    ///< without its diagnostics, which come once a second
 constexpr double kTurn = 0.02;                         ///< of the worker [s]
 
 template <class Entries, class Value>
@@ -73,7 +74,8 @@ AlignerLink::~AlignerLink() {
 void AlignerLink::subscribe() {
   subscribers_ = {handle_.subscribe(node_ + "/state", kQueueSize, &AlignerLink::on_state, this),
                   handle_.subscribe(node_ + "/result", 1, &AlignerLink::on_result, this),
-                  handle_.subscribe(node_ + "/parameter_updates", 10, &AlignerLink::on_settings, this)};
+                  handle_.subscribe(node_ + "/parameter_updates", 10, &AlignerLink::on_settings, this),
+                  handle_.subscribe("/diagnostics", 100, &AlignerLink::on_diagnostics, this)};
 }
 
 // --- What the panel calls ------------------------------------------------------------------------------------------
@@ -109,6 +111,8 @@ AlignerLink::Status AlignerLink::status() {
   const Clock::duration gap = std::max<Clock::duration>(kStandstill, 4 * (last_arrival_ - arrival_before_));
   status_.running = !status_.result && last_arrival_ != Clock::time_point() && arrival_before_ != Clock::time_point() &&
                     now - arrival_before_ < gap;
+  status_.silent = status_.presence == Presence::present && !status_.running &&
+                   last_diagnostics_ != Clock::time_point() && now - last_diagnostics_ > kSilence;
   return status_;
 }
 
@@ -153,6 +157,12 @@ void AlignerLink::on_settings(const dynamic_reconfigure::Config& settings) {
   status_.settings = config;
 }
 
+void AlignerLink::on_diagnostics(const ros::MessageEvent<const diagnostic_msgs::DiagnosticArray>& event) {
+  if (event.getPublisherName() != node_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_diagnostics_ = Clock::now();
+}
+
 // --- The worker ----------------------------------------------------------------------------------------------------
 
 void AlignerLink::work() {
@@ -178,7 +188,7 @@ void AlignerLink::look_for_node() {
       status_.result.reset();
       status_.answer.clear();
       status_.refused = false;
-      last_arrival_ = {};
+      last_arrival_ = last_diagnostics_ = {};
     }
     if (!there) {
       commands_.clear();

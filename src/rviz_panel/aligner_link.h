@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Config.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -32,6 +33,7 @@ class AlignerLink {
   struct Status {
     Presence presence = Presence::sought;
     bool running = false;                   ///< samples come in
+    bool silent = false;                    ///< the node is present, and publishes not even its diagnostics any more
     std::optional<AlignerConfig> settings;  ///< in force
     bool changing = false;                  ///< they are about to be changed: changes are on their way to the node
     std::optional<AlignerState> state;      ///< the last sample
@@ -92,6 +94,7 @@ class AlignerLink {
   void on_state(const AlignerState& state);
   void on_result(const AlignerResult& result);
   void on_settings(const dynamic_reconfigure::Config& settings);
+  void on_diagnostics(const ros::MessageEvent<const diagnostic_msgs::DiagnosticArray>& event);
 
   const std::string node_;
   ros::CallbackQueue queue_;
@@ -103,8 +106,9 @@ class AlignerLink {
   Status status_;
   std::vector<AlignerState> samples_;
   Clock::time_point last_arrival_{}, arrival_before_{};
-  std::deque<Command> commands_;  ///< that wait
-  ros::ServiceClient client_;     ///< of the call that is under way
+  Clock::time_point last_diagnostics_{};  ///< of the node
+  std::deque<Command> commands_;          ///< that wait
+  ros::ServiceClient client_;             ///< of the call that is under way
   std::optional<Clock::time_point> busy_since_;
 
   std::atomic<bool> ending_{false};

@@ -268,12 +268,16 @@ void AlignerPanel::show_presence(const AlignerLink::Status& status) {
   if (status.presence == Presence::no_master) words = "no ROS master answers";
   if (status.presence == Presence::absent) words = "no node " + node + ": start one with trial.launch";
   if (present) {
-    words = status.result ? "ended" : status.running ? "running" : status.state ? "paused" : "waiting";
+    words = status.silent    ? "does not answer"
+            : status.result  ? "ended"
+            : status.running ? "running"
+            : status.state   ? "paused"
+                             : "waiting";
     if (status.state) words += ": " + QString::fromStdString(status.state->scene);
   } else if (status.presence == Presence::absent && status.running) {
     words += " (what is shown is being replayed)";
   }
-  set_colour(*lamp_, !present ? kRed : status.running ? kGreen : kGrey);
+  set_colour(*lamp_, !present ? kRed : status.silent ? kAmber : status.running ? kGreen : kGrey);
   if (presence_->text() != words) presence_->setText(words);
   if (controls_->isEnabled() != present) controls_->setEnabled(present);
 

@@ -298,12 +298,15 @@ TEST_F(PanelTest, TheNodeHasCommandsInTheOrderInWhichTheyWereGiven) {
 }
 
 TEST_F(PanelTest, ANodeThatHangsDoesNotHoldUpThePanel) {
+  ASSERT_FALSE(wait_until([this] { return says("presence", "does not answer"); }, 5000)) << "at a standstill";
   ::kill(static_cast<pid_t>(node->pid()), SIGSTOP);
+  EXPECT_TRUE(wait_until([this] { return says("presence", "does not answer: small"); })) << presence();
   click(panel_, "start");  // would wait here for ever
   EXPECT_TRUE(wait_until([this] { return says("answer", "/aligner does not answer"); }));
   ::kill(static_cast<pid_t>(node->pid()), SIGCONT);
   click(panel_, "reset");
   EXPECT_TRUE(wait_until([this] { return says("answer", "paused at the start"); }));
+  EXPECT_TRUE(wait_until([this] { return says("presence", "paused: small"); })) << presence();
 }
 
 TEST_F(PanelTest, SaysWhenTheNodeIsGoneAndFindsItAgain) {
