@@ -56,7 +56,8 @@ class Hops {
     double height = 0.0;
   };
 
-  /// Largest distance of the point from the face, or from what the base is still deformed by, during the segment.
+  /// Largest distance of the point from the face's line, or from what the base is still deformed by, during the segment:
+  /// to either side, as it may go past the end of the face and be beneath its line when it is looked at.
   double distance(const Segment& segment, Site site, Face face) const {
     const Recovery& base = segment.recoveries[static_cast<std::size_t>(site)];
     std::optional<Relaxation> relaxation;
@@ -66,7 +67,7 @@ class Hops {
       const double t = share * segment.duration;
       const State q = share < 1.0 ? state_at(segment, t) : segment.end;
       const double deformation = relaxation ? relaxation->deformation_at(t) : 0.0;
-      most = std::max(most, deformation - test::touch_point(system_, q, {site, face}).depth);
+      most = std::max(most, std::abs(deformation - test::touch_point(system_, q, {site, face}).depth));
     }
     return most;
   }
