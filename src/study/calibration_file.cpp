@@ -23,7 +23,8 @@ CalibrationParameter read_parameter(TreeReader reader, const std::string& name) 
   parameter.to = reader.required_number("to", rule);
   if (!(parameter.from < parameter.to)) reader.fault("to", "must be above `from`");
   parameter.start = reader.required_number("start", rule);
-  if (!has_in_range(parameter, parameter.start)) reader.fault("start", "must be from `from` to `to`");
+  if (reader.has("start") && !has_in_range(parameter, parameter.start))
+    reader.fault("start", "must be from `from` to `to`");
   reader.refuse_unknown_keys();
   return parameter;
 }
@@ -33,7 +34,8 @@ std::vector<double> read_start(TreeReader reader, const std::vector<CalibrationP
   std::vector<double> start;
   for (const CalibrationParameter& parameter : parameters) {
     start.push_back(reader.number(parameter.name, any_number).value_or(parameter.start));
-    if (!has_in_range(parameter, start.back())) reader.fault(parameter.name, "must be from `from` to `to`");
+    if (reader.has(parameter.name) && !has_in_range(parameter, start.back()))
+      reader.fault(parameter.name, "must be from `from` to `to`");
   }
   reader.refuse_unknown_keys();
   return start;

@@ -333,6 +333,9 @@ TEST(CalibrationFile, names_what_is_wrong) {
   EXPECT_TRUE(
       says(refusal("from: 100, to: 1.0e+6", "from: 100, to: 50"), "parameters.C1.to: 50: must be above `from`"));
   EXPECT_TRUE(says(refusal("start: 500", "start: 5"), "parameters.C1.start: 5: must be from `from` to `to`"));
+  const std::string without_start = refusal(", start: 500", "");
+  EXPECT_TRUE(says(without_start, "parameters.C1.start: missing: must be")) << without_start;
+  EXPECT_FALSE(says(without_start, "must be from `from`")) << "one fault, one message: " << without_start;
   EXPECT_TRUE(says(refusal("spacing: log", "spacing: cubic"), "parameters.C1.spacing: cubic"));
   EXPECT_TRUE(says(refusal("population: 8", "popular: 8"), "search.population"));
   EXPECT_TRUE(says(refusal("population: 8", "population: 0"), "search.population: 0"));
