@@ -18,6 +18,16 @@ except ImportError as error:
 # Told apart also in grey and by those who see colours otherwise (Okabe and Ito).
 BLUE, ORANGE = "#0072B2", "#D55E00"
 
+# Colour and mark of each solver.
+SOLVER_STYLES = {
+    "event": (BLUE, "o"),
+    "auto": ("#56B4E9", "s"),
+    "implicit": ("#009E73", "^"),
+    "semi_implicit": ("#E69F00", "v"),
+    "rk4": (ORANGE, "D"),
+    "ode": ("#CC79A7", "X"),
+}
+
 # The paper's symbols for the columns of a motion.
 MOTION_SYMBOLS = {
     "x": r"$x_C$",

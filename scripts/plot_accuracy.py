@@ -8,17 +8,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import interrupts  # noqa: E402, F401  (before what takes its time)
-from drawing import plt, set_title  # noqa: E402
+from drawing import SOLVER_STYLES, plt, set_title  # noqa: E402
 
-# Marks as well as colours tell the lines apart, also in grey and for those who see colours otherwise (Okabe and Ito).
-STYLES = {
-    "event": ("#0072B2", "o"),
-    "auto": ("#56B4E9", "s"),
-    "implicit": ("#009E73", "^"),
-    "semi_implicit": ("#E69F00", "v"),
-    "rk4": ("#D55E00", "D"),
-    "ode": ("#CC79A7", "X"),
-}
 SOLID = {"markersize": 4.5, "linewidth": 1.2, "zorder": 3}
 # `auto` often is `event` or `implicit` to the bit: both stay to be seen
 HOLLOW = {"markersize": 8.5, "linewidth": 1.2, "linestyle": "--", "markerfacecolor": "none", "zorder": 2}
@@ -41,7 +32,7 @@ def draw(lines, floor, title, target, kind):
     # within the shaded part: how far below what the reference knows is not known either
     least_drawn = 0.3 * floor if floor > 0.0 else 1e-17
     for solver, points in lines.items():
-        colour, mark = STYLES.get(solver, ("#000000", "."))
+        colour, mark = SOLVER_STYLES.get(solver, ("#000000", "."))
         style = HOLLOW if solver == "auto" else SOLID
         errors, times = zip(*points)
         drawn = [max(error, least_drawn) for error in errors]

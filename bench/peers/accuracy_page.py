@@ -11,14 +11,12 @@ import io
 import os
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
 from table import POSITION, cell, keeping, read, seconds, table
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+from drawing import SOLVER_STYLES, plt  # noqa: E402  (in scripts/)
+
 PAGE = os.path.join(ROOT, "docs", "accuracy.md")
 FIGURE = os.path.join(ROOT, "docs", "images", "accuracy.svg")
 MARK = "<!-- results -->"
@@ -35,15 +33,7 @@ SHOWN = (
     ("lasting contact on a stiff overdamped base, tanh", "lasting_overdamped", "lasting_overdamped"),
     ("the same, dry", "lasting_overdamped_dry", "lasting_overdamped"),
 )
-# Colour and mark: strong ones for the own solvers, as in `align accuracy --plot`, and for the best peers.
-OWN_STYLES = {
-    "own_event": ("#0072B2", "o"),
-    "own_auto": ("#56B4E9", "s"),
-    "own_implicit": ("#009E73", "^"),
-    "own_semi_implicit": ("#E69F00", "v"),
-    "own_rk4": ("#D55E00", "D"),
-    "own_ode": ("#CC79A7", "X"),
-}
+# Colour and mark of the best peers; those of the own solvers are strong ones as well, all others grey.
 BEST_PEERS = {"odeint_dopri5": ("black", "o"), "cvode_bdf": ("#8C1C13", "s"), "cvode_adams": ("#C0584F", "D")}
 OTHER_MARKS = ("o", "s", "^", "v", "D", "X", "P", "<", ">", "*", "p")
 OTHER_COLOURS = ("0.62", "0.72", "0.52")
@@ -106,8 +96,8 @@ def print_all(runs, answers):
 
 def style_of(name, others):
     """How a tool is drawn; `others`: those without a colour of their own."""
-    if name in OWN_STYLES:
-        colour, mark = OWN_STYLES[name]
+    if name.startswith(OWN):
+        colour, mark = SOLVER_STYLES[name[len(OWN):]]
         style = {"color": colour, "marker": mark, "markersize": 4.5, "linewidth": 1.6, "zorder": 4}
         # `auto` often is `event` or `implicit`: both stay to be seen
         return style if name != "own_auto" else dict(style, markersize=8.0, markerfacecolor="none", linestyle="--", zorder=3)
@@ -132,7 +122,7 @@ def draw(runs, answers):
     shown = [entry for entry in SHOWN if entry[1] in ("r1", "r1_dry", "r1_stiff", "lasting_overdamped")]
     figure, panels = plt.subplots(2, 2, figsize=(11.0, 8.5), sharex=True)
     names = sorted({name for entry in shown for name in series_of(runs, *entry[1:])}, key=lambda n: (not n.startswith(OWN), n))
-    others = [name for name in names if name not in OWN_STYLES and name not in BEST_PEERS]
+    others = [name for name in names if not name.startswith(OWN) and name not in BEST_PEERS]
     lines = {}
     for panel, (title, own_problem, peer_problem) in zip(panels.flat, shown):
         for name, (series, problem) in series_of(runs, own_problem, peer_problem).items():
@@ -145,7 +135,7 @@ def draw(runs, answers):
         panel.set_xlabel("error of x, y, phi at the end")
     for panel in panels[:, 0]:
         panel.set_ylabel("processor time, s")
-    order = [name for name in (*OWN_STYLES, *BEST_PEERS, *others) if name in lines]
+    order = [name for name in (*(OWN + solver for solver in SOLVER_STYLES), *BEST_PEERS, *others) if name in lines]
     figure.legend([lines[name] for name in order], [name.replace(OWN, "own: ") for name in order],
                   loc="lower center", ncol=6, fontsize=8, frameon=False)
     figure.tight_layout(rect=(0.0, 0.07, 1.0, 1.0))

@@ -186,17 +186,4 @@ bool may_push(const System& system, const ContactBook& book, Site site) {
   return contact.phase == Phase::loaded;
 }
 
-bool is_below(const System& system, const ContactBook& book, double depth, bool between_walls) {
-  // the mean of both corners is at y - b cos phi
-  if (book.placed.state.y - system.base_distance * book.placed.cos_phi > -depth) return false;
-  for (const Site corner : {Site::b1, Site::b2}) {
-    const Vec2 point = site_point(system, book.placed, corner);
-    const ContactState& contact = book.contacts[static_cast<std::size_t>(corner)];
-    const Region region = insertion_region(system, depth, between_walls, contact);
-    for (int j = 0; j < region.count; ++j)
-      if (!(region.conditions[j].value(point) > 0.0)) return false;
-  }
-  return true;
-}
-
 }  // namespace vibratory_alignment

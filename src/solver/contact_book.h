@@ -62,7 +62,4 @@ void follow(const System& system, const SiteTable& table, const ContactBook& bef
 /// where the part is. A base that recovers and has been left pushes again only after the part has caught up with it.
 bool may_push(const System& system, const ContactBook& book, Site site);
 
-/// Whether both lower corners are below `depth` and, if asked, between the walls (a corner that presses into one is).
-bool is_below(const System& system, const ContactBook& book, double depth, bool between_walls);
-
 }  // namespace vibratory_alignment

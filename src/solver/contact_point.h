@@ -35,4 +35,9 @@ Vec2 site_point(const System& system, const PlacedState& placed, Site site);
 /// The contact of `site`, whose point is at `point`, with `face`.
 ContactPoint contact_point(const System& system, const PlacedState& placed, Site site, Face face, const Vec2& point);
 
+/// True when both lower corners, with these contacts, are below `depth` and, if asked, between the walls
+/// (insertion_region).
+bool is_below(const System& system, const PlacedState& placed, const ContactStates& contacts, double depth,
+              bool between_walls);
+
 }  // namespace vibratory_alignment

@@ -131,9 +131,9 @@ void FixedStepSolver::book_end(bool whole) {
       add_event(segment_, EventKind::slip_reversal, site);
   }
   if (drives_.has_kink(segment_.duration)) add_event(segment_, EventKind::drive_kink, Site::a1);
-  if (awaits_aligned_ && is_below(system_, end, system_.aligned_depth, true))
+  if (awaits_aligned_ && is_below(system_, end.placed, end.contacts, system_.aligned_depth, true))
     add_event(segment_, EventKind::aligned, Site::b1);
-  if (awaits_inserted_ && is_below(system_, end, system_.inserted_depth, false))
+  if (awaits_inserted_ && is_below(system_, end.placed, end.contacts, system_.inserted_depth, false))
     add_event(segment_, EventKind::inserted, Site::b1);
 }
 

@@ -7,7 +7,6 @@
 #include <new>
 #include <string>
 
-#include "mechanics/site_rules.h"
 #include "mechanics/statics.h"
 #include "mechanics/system.h"
 #include "model/scaling.h"
@@ -191,21 +190,9 @@ class Simulation::Impl {
     for (const Site site : {Site::b1_floor, Site::b2_floor})
       if (segment.contacts[static_cast<std::size_t>(site)].touching()) reached_end_ = true;
     if (aligned_time_ && reached_end_) outcome_ = Outcome::inserted;
-    if (outcome_ == Outcome::running && settling_.settled())
-      outcome_ = aligned_time_ && ends_in_slot(segment) ? Outcome::jammed : Outcome::stalled;
-  }
-
-  /// Both lower corners are below the top surface, between the walls (one that touches a wall is).
-  bool ends_in_slot(const Segment& segment) const {
-    const PlacedState end(segment.end);
-    for (const Site corner : {Site::b1, Site::b2}) {
-      const ContactState& contact = segment.contacts[static_cast<std::size_t>(corner)];
-      const Region region = insertion_region(system_, 0.0, true, contact);
-      const Vec2 place = site_point(system_, end, corner);
-      for (int i = 0; i < region.count; ++i)
-        if (region.conditions[i].value(place) < 0.0) return false;
-    }
-    return true;
+    if (outcome_ != Outcome::running || !settling_.settled()) return;
+    const bool is_in_slot = is_below(system_, PlacedState(segment.end), segment.contacts, 0.0, true);
+    outcome_ = aligned_time_ && is_in_slot ? Outcome::jammed : Outcome::stalled;
   }
 
   /// Does a part of the trial. Whatever it throws ends the trial as failed, but for a lack of memory, which is none of
