@@ -88,22 +88,29 @@ def find_node(bag, wanted):
 
 
 def read_last_run(bag, node, si):
-    motion, outcome = {column: [] for column in COLUMNS}, ""
+    motion = {column: [] for column in COLUMNS}
+    state, result = None, None  # the last ones
     for topic, message, _ in bag.read_messages(topics=[node + "/state", node + "/result"]):
         if topic.endswith("/result"):
-            outcome = "%s: %s" % (message.scene, outcome_text(message))
+            # it is latched: who joins a trial gets that of the one before, which is older than the states
+            if not state or message.header.stamp >= state.header.stamp:
+                result = message
             continue
+        if state and message.header.stamp == state.header.stamp:
+            continue  # the last one, for a newcomer
         if si and not message.has_scales:
             raise BadTrial("--si: the scene %s has no scales, so its numbers have no SI units" % message.scene)
-        time = message.time if si else message.tau
-        if motion["t"] and time < motion["t"][-1]:  # ~reset: another run begins
-            motion, outcome = {column: [] for column in COLUMNS}, ""
-        state = message.si if si else message.dimensionless
-        forces = [force if si else force / message.force_scale for force in message.peak_force[:2]]
-        values = (time, state.x, state.y, state.phi, state.vx, state.vy, *forces)
+        if state and message.tau <= state.tau:  # ~reset, ~load_scene, a goal: another run begins
+            motion, result = {column: [] for column in COLUMNS}, None
+        if result and message.header.stamp > result.header.stamp:
+            result = None
+        state = message
+        pose = state.si if si else state.dimensionless
+        forces = [force if si else force / state.force_scale for force in state.peak_force[:2]]
+        values = (state.time if si else state.tau, pose.x, pose.y, pose.phi, pose.vx, pose.vy, *forces)
         for column, value in zip(COLUMNS, values):
             motion[column].append(value)
-    return motion, outcome
+    return motion, "%s: %s" % (result.scene, outcome_text(result)) if result else ""
 
 
 def outcome_text(result):

@@ -1,5 +1,6 @@
 """`align plot`: pictures of CSV files and bags, and what it refuses."""
 
+import copy
 import csv
 import json
 import os
@@ -108,6 +109,51 @@ class PlotTest(AlignTestCase):
             words = {"aligned": "fig2: aligned " + after, "inserted": "insertion: inserted; aligned " + after}
             self.assertIn(words[result["outcome"]], " ".join(self.words(self.path("run.svg"))))
         self.assertGreater(result["final"]["t"], 1.1 * result["duration"], "the trial went on")
+
+    def write_bag(self, path, messages):
+        """A bag of these (topic below /aligner, message, seconds by which it comes later than it was)."""
+        import rosbag
+        import rospy
+
+        with rosbag.Bag(path, "w") as bag:
+            for topic, message, later in messages:
+                message.header.stamp += rospy.Duration(later)
+                bag.write("/aligner/" + topic, message, message.header.stamp)
+
+    def messages_of(self, topic):
+        import rosbag
+
+        with rosbag.Bag(self.bag) as bag:
+            return [message for _, message, _ in bag.read_messages(topics=["/aligner/" + topic])]
+
+    def test_the_result_of_the_trial_before_is_not_that_of_one_that_goes_on(self):
+        self.align("trial", "fig2", "--bag", self.bag)
+        # it is latched: the recorder joins while the second trial runs
+        result, = self.messages_of("result")
+        length = (result.header.stamp - self.messages_of("state")[0].header.stamp).to_sec() + 1.0
+        second = [("state", state, length) for state in self.messages_of("state")]
+        for first, end, shown in ((True, False, False), (True, True, True), (False, True, True)):
+            bag, picture = self.path("joined.bag"), self.path("joined.svg")
+            messages = [("result", result, 0.0)] if first else []
+            messages += second + ([("result", self.messages_of("result")[0], length)] if end else [])
+            self.write_bag(bag, copy.deepcopy(messages))
+            self.plot(bag, picture)
+            self.assertEqual("aligned after" in " ".join(self.words(picture)), shown)
+
+    def test_the_start_of_a_scene_that_gave_way_to_another_is_not_drawn(self):
+        rows = self.rows_of_bag()
+        own = [("state", state, 1.0) for state in self.messages_of("state")]
+        self.align("trial", "insertion", "--bag", self.bag)
+        other = self.messages_of("state")[0]
+        bag, picture = self.path("two.bag"), self.path("two.svg")
+        # told once more to somebody who joined
+        self.write_bag(bag, copy.deepcopy([("state", other, 0.0)] * 2 + own))
+        self.plot(bag, picture)
+        self.assert_curves(picture, rows)
+        self.write_bag(self.path("one.bag"), own)
+        self.plot(self.path("one.bag"), self.path("one.svg"))
+        points = [[self.points(group) for group in self.paths(path)] for path in (picture, self.path("one.svg"))]
+        self.assertEqual(*points)
 
     def test_a_title_is_drawn_as_it_is_written_and_in_lines_that_fit(self):
         title = r"Costs a $ or $\nope$, " + 20 * "pressed harder " + "and again"

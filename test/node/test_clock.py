@@ -109,6 +109,15 @@ class OwnClock(AlignerTestCase):
         found = buffer.lookup_transform('world', 'part', rospy.Time(0))
         self.assertEqual(found.header.stamp, self.states.messages[-1].header.stamp)
 
+    def test_a_cell_that_is_started_again_at_the_same_instant_is_heard(self):
+        # its goals would have the same ids, by which the action tells them apart
+        rospy.set_param('/again', {'parts': [{'part': 'one', 'scene': scene_path('small')}], 'patience': 8.0})
+        for _ in range(2):
+            self.reset(self.states)
+            cell = subprocess.run([program('cell.py'), '__name:=again'], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, universal_newlines=True, timeout=30.0)
+            self.assertIn('one: time_limit after', cell.stdout)
+
     def test_goals_never_set_it_back(self):
         client = actionlib.SimpleActionClient('/aligner/align', AlignAction)
         self.assertTrue(client.action_client.wait_for_server(rospy.Duration(0)) or client.wait_for_server())
