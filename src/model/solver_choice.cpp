@@ -6,12 +6,26 @@
 namespace vibratory_alignment {
 namespace {
 
-/// G, of the part's farthest point.
-double most_mobility(const Scene& scene) {
+/// G at the outline of the part, so far from its centre along the insertion.
+double mobility_at(const Scene& scene, double height) {
   const double of_mass = 1.0 / scene.gripper.y.inertia;
   if (!scene.gripper.phi.moves) return of_mass;
-  const double a = scene.part.half_width, b = scene.part.base_distance;
-  return of_mass + (a * a + b * b) / scene.gripper.phi.inertia;
+  const double a = scene.part.half_width;
+  return of_mass + (a * a + height * height) / scene.gripper.phi.inertia;
+}
+
+/// ... of the part's farthest point.
+double most_mobility(const Scene& scene) { return mobility_at(scene, scene.part.base_distance); }
+
+/// ... of that or of the place of its sides at which an edge of the slot is when the trial starts.
+double most_mobility_at_start(const Scene& scene) {
+  return mobility_at(scene, std::max(scene.part.base_distance, -scene.initial.y.value_or(0.0)));
+}
+
+double rate_on_base(const Scene& scene, double mobility) {
+  const double stiffness = std::max(scene.base.stiffness_x, scene.base.stiffness_y);
+  const double damping = std::max(scene.base.damping_x, scene.base.damping_y);
+  return std::max(std::sqrt(stiffness * mobility), damping * mobility);
 }
 
 /// What may push the part onto the base while it stands there: press, weight and all excitations together.
@@ -33,12 +47,7 @@ double gripper_rate(const Scene& scene) {
 
 }  // namespace
 
-double contact_rate(const Scene& scene) {
-  const double mobility = most_mobility(scene);
-  const double stiffness = std::max(scene.base.stiffness_x, scene.base.stiffness_y);
-  const double damping = std::max(scene.base.damping_x, scene.base.damping_y);
-  return std::max(std::sqrt(stiffness * mobility), damping * mobility);
-}
+double contact_rate(const Scene& scene) { return rate_on_base(scene, most_mobility(scene)); }
 
 double layer_rate(const Scene& scene) {
   if (!scene.friction || !scene.friction->regularization) return 0.0;
@@ -51,7 +60,8 @@ const char* solver_for_accuracy(const Scene& scene) {
 }
 
 double default_step(const Scene& scene) {
-  return kDefaultStep / std::max({scene.fastest_excitation(), contact_rate(scene), gripper_rate(scene)});
+  const double on_base = rate_on_base(scene, most_mobility_at_start(scene));
+  return kDefaultStep / std::max({scene.fastest_excitation(), on_base, gripper_rate(scene)});
 }
 
 double tolerance_for_accuracy(double accuracy) { return kToleranceShare * accuracy; }

@@ -30,7 +30,8 @@ const char* solver_for_accuracy(const Scene& scene);
 inline constexpr double kDefaultStep = 0.02;
 
 /// That step for a dimensionless scene: kDefaultStep over the fastest of the excitation (nu), the contact (sqrt(k G)
-/// and h G, as above) and the gripper (sqrt(k/m) and h/m of each axis).
+/// and h G, as above, but with |y| of a start below the slot's top in place of b where that is more) and the gripper
+/// (sqrt(k/m) and h/m of each axis).
 double default_step(const Scene& scene);
 
 /// The tolerance of event, implicit and auto with which the pose at the end is exact to `accuracy`, dimensionless.

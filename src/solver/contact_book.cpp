@@ -7,10 +7,12 @@
 namespace vibratory_alignment {
 namespace {
 
-/// A corner reaches the floor only inside the slot, or while it presses into a wall.
+/// A corner reaches the floor only inside the slot, or while it presses into a wall: from within the slot either way,
+/// also where it comes to both in one step.
 bool over_floor(const System& system, const ContactBook& book, Site site, const Vec2& point) {
   const Site corner = site == Site::b1_floor ? Site::b1 : Site::b2;
-  return book.contacts[static_cast<std::size_t>(corner)].on_wall() || is_in_slot(system, point.x);
+  return book.contacts[static_cast<std::size_t>(corner)].on_wall() || is_in_slot(system, point.x) ||
+         is_in_slot(system, book.points[static_cast<std::size_t>(site)].x);
 }
 
 /// A condition of a region, at a point, with the surface of a base that has been left not back yet.

@@ -9,6 +9,9 @@ namespace {
 /// A rest of a step this small, relative to the step, is joined to a neighbour.
 constexpr double kSliver = 1e-6;
 
+/// A point this close to a face, relative to the lengths of the bodies and the place of the part, lies on it.
+constexpr double kOnFace = 1e-15;
+
 }  // namespace
 
 FixedStepSolver::FixedStepSolver(const System& system, const std::vector<Excitation>& excitations,
@@ -41,6 +44,7 @@ void FixedStepSolver::go_to_end() {
 }
 
 const Segment& FixedStepSolver::advance(double limit) {
+  const bool is_first = !started_;
   if (started_) go_to_end();
   started_ = true;
   if (++counts_.steps > step_limit_) throw SolverFailure("step limit of " + std::to_string(step_limit_) + " reached");
@@ -64,8 +68,51 @@ const Segment& FixedStepSolver::advance(double limit) {
     rest();
   }
   book_end(true);
+  if (is_first) take_events_of_start();
   set_direction();
   return segment_;
+}
+
+/// What the first step has found may be of the start itself: the touch of a face on which a point starts, an outcome
+/// that holds there. Then the first segment is the start alone, and the step comes after it.
+void FixedStepSolver::take_events_of_start() {
+  const ContactBook& start = book();
+  ContactBook& end = end_book();
+  std::array<Event, kMaxEvents> touches;
+  int count = 0;
+  for (int i = 0; i < segment_.event_count; ++i) {
+    const Event& event = segment_.events[static_cast<std::size_t>(i)];
+    if (event.kind == EventKind::touch && starts_on(event)) touches[static_cast<std::size_t>(count++)] = event;
+  }
+  const bool is_aligned = is_below(system_, start.placed, start.contacts, system_.aligned_depth, true);
+  const bool is_inserted =
+      awaits_inserted_ && is_below(system_, start.placed, start.contacts, system_.inserted_depth, false);
+  if (count == 0 && !is_aligned && !is_inserted) return;
+
+  segment_.duration = 0.0;
+  segment_.contacts = start.contacts;
+  segment_.loaded_count = segment_.event_count = 0;
+  rest();
+  end = start;
+  for (int n = 0; n < count; ++n) {
+    const Event& touch = touches[static_cast<std::size_t>(n)];
+    const auto i = static_cast<std::size_t>(touch.site);
+    const ContactPoint& point = end.touching[i] =
+        contact_point(system_, end.placed, touch.site, touch.face, end.points[i]);
+    end.contacts[i].phase = point.push() > 0.0 ? Phase::loaded : Phase::unloaded;
+    end.contacts[i].face = touch.face;
+    if (end.contacts[i].phase == Phase::loaded) end.contacts[i].slip = slip_at(i, true);
+    add_event(segment_, EventKind::touch, touch.site, touch.face);
+  }
+  if (is_aligned) add_event(segment_, EventKind::aligned, Site::b1);
+  if (is_inserted) add_event(segment_, EventKind::inserted, Site::b1);
+}
+
+bool FixedStepSolver::starts_on(const Event& touch) const {
+  const Vec2& point = book().points[static_cast<std::size_t>(touch.site)];
+  const double lengths =
+      std::abs(state().x) + std::abs(state().y) + system_.half_width + system_.base_distance + system_.slot_half_width;
+  return std::abs(contact_frame(system_, touch.face).depth(point.x, point.y)) <= kOnFace * lengths;
 }
 
 /// A segment without length.
@@ -85,7 +132,8 @@ void FixedStepSolver::rest() {
   segment_.drive_phi[0] = drive.phi;
 }
 
-/// cos and sin of the tilt, as far as the order of the segment goes.
+/// cos and sin of the tilt, as far as the order of the segment goes; of a line, in which forces act along the
+/// directions of its start, those of there.
 void FixedStepSolver::set_direction() {
   const PlacedState &begin = book().placed, &end = end_book().placed;
   const double h = segment_.duration;
@@ -96,9 +144,6 @@ void FixedStepSolver::set_direction() {
     const double w0 = begin.state.omega, w1 = end.state.omega;
     set_cubic(segment_.cos_phi, order, begin.cos_phi, -w0 * begin.sin_phi, end.cos_phi, -w1 * end.sin_phi, h);
     set_cubic(segment_.sin_phi, order, begin.sin_phi, w0 * begin.cos_phi, end.sin_phi, w1 * end.cos_phi, h);
-  } else if (order >= 1) {
-    set_line(segment_.cos_phi, order, begin.cos_phi, end.cos_phi, h);
-    set_line(segment_.sin_phi, order, begin.sin_phi, end.sin_phi, h);
   }
 }
 

@@ -32,6 +32,8 @@ class FixedStepSolver final : public Solver {
  private:
   void go_to_end();
   void rest();
+  void take_events_of_start();
+  bool starts_on(const Event& touch) const;
   /// Contacts, events and outcomes at the segment's end.
   void book_end(bool whole);
   void set_direction();

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "solver/box_friction.h"
+#include "solver/damped_pushes.h"
 #include "solver/first_order.h"
 
 namespace vibratory_alignment {
 namespace {
 
-/// Sweeps over several contacts that push on one another; one contact needs two to five.
+/// Sweeps over the friction of several contacts; one contact needs two to five.
 constexpr int kMostSweeps = 200;
 
 /// A velocity, or a force beside the other forces, that is rounding.
@@ -118,26 +119,22 @@ class Step {
             velocity_.phi};
   }
 
-  /// N = max(0, k d + h d'), d of the start, d' of the end, without friction. All contacts answer at once, each with
-  /// its share: the sweeps then converge, and treat contacts alike.
+  /// N = max(0, k d + h d'), d of the start, d' of the end, without friction.
   void solve_normal_forces() {
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-      double most = 0.0, largest = 0.0;
-      std::array<double, kSiteCount> change{};
-      for (int i = 0; i < count_; ++i) {
-        const Pushing& c = contacts_[static_cast<std::size_t>(i)];
-        const double asked = c.point.stiffness * c.point.depth - c.point.damping * c.normal.dot(velocity_);
-        const double n = std::max(0.0, c.n + (asked - c.n) / (1.0 + count_ * c.point.damping * c.normal_mobility));
-        change[static_cast<std::size_t>(i)] = n - c.n;
-        most = std::max(most, std::abs(n - c.n));
-        largest = std::max(largest, n);
-      }
-      for (int i = 0; i < count_; ++i) {
-        Pushing& c = contacts_[static_cast<std::size_t>(i)];
-        c.n += change[static_cast<std::size_t>(i)];
-        velocity_.add(c.normal_kick, change[static_cast<std::size_t>(i)]);
-      }
-      if (!(most > kRounding * largest)) break;
+    DampedPushes problem;
+    problem.count = count_;
+    for (int i = 0; i < count_; ++i) {
+      const Pushing& c = contacts_[static_cast<std::size_t>(i)];
+      problem.damping[i] = c.point.damping;
+      problem.offered[i] = c.point.stiffness * c.point.depth - c.point.damping * c.normal.dot(velocity_);
+      for (int j = 0; j < count_; ++j)
+        problem.mobility[i][j] = c.normal.dot(contacts_[static_cast<std::size_t>(j)].normal_kick);
+    }
+    const Mobility::Vector pushes = solve_damped_pushes(problem);
+    for (int i = 0; i < count_; ++i) {
+      Pushing& c = contacts_[static_cast<std::size_t>(i)];
+      c.n = pushes[i];
+      velocity_.add(c.normal_kick, c.n);
     }
   }
 

@@ -21,6 +21,9 @@ constexpr double kSimplexStep = 0.1;
 /// simplex of kSimplexStep spans.
 constexpr double kSimplexRoom = 2.0;
 
+/// First step of the quadratic model, as a share of the ranges: it has room for its points to both sides of the start.
+constexpr double kMostInitialStep = 0.5;
+
 /// The sets that a random search keeps, for each value that it searches for. CRS2 asks for one more than the values at
 /// least; NLopt's own ten times as many would take all of a round to fill.
 constexpr std::size_t kKeptPerValue = 3;
@@ -194,7 +197,7 @@ void CalibrationRun::minimize(const Stage& stage, const std::vector<double>& sta
   if (random)
     optimizer.set_population(static_cast<unsigned>(stage.population));
   else
-    optimizer.set_initial_step(stage.reach);
+    optimizer.set_initial_step(std::min(stage.reach, kMostInitialStep));
   optimizer.set_lower_bounds(low);
   optimizer.set_upper_bounds(high);
   optimizer.set_maxeval(static_cast<int>(stage.evaluations));

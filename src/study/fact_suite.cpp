@@ -74,8 +74,9 @@ Study thinned(const Study& study, const Thinning& thinning) {
   Study thin = study;
   for (std::size_t d = 0; d < study.dimensions.size(); ++d) {
     Dimension& dimension = thin.dimensions[d];
-    const bool is_list = !dimension.keys.front().values.empty();
-    if (dimension.sampled() || is_list || thinning.grid <= 1) continue;
+    const bool has_list = std::any_of(dimension.keys.begin(), dimension.keys.end(),
+                                      [](const auto& key) { return !key.values.empty(); });
+    if (dimension.sampled() || has_list || thinning.grid <= 1) continue;
     const std::vector<std::size_t> positions = kept_positions(dimension.count, thinning.grid);
     for (std::size_t k = 0; k < dimension.keys.size(); ++k)
       for (const std::size_t position : positions)

@@ -134,6 +134,43 @@ TEST_P(BatteryReference, tends_to_the_reference) {
   }
 }
 
+// A part that cannot tilt comes to a wall and to the floor at one instant: both its feet stand on the floor, and carry
+// alike.
+class BatteryFloor : public test::SolverBattery {};
+INSTANTIATE_TEST_SUITE_P(solver, BatteryFloor, testing::ValuesIn(test::stated_solvers()), test::solver_test_name);
+
+TEST_P(BatteryFloor, both_feet_carry_alike_beside_a_wall) {
+  const Scene scene = scene_of(R"(
+part: {half_width: 0.5, base_distance: 0.5}
+slot: {clearance: 0.1, depth: 1.0}
+gripper: {stiffness: {x: 0.0}, anchor: {y: -0.5}}
+base: {stiffness: {x: 1.0e4, y: 1.0e4}, damping: {x: 20, y: 20}}
+contacts: [walls]
+excitation: {amplitude: 0, frequency: 1}
+initial: {x: 0.0, y: -0.2993306558290989, vx: 1.0, vy: -2.0}
+trial: {time_limit: 0.13, aligned_depth: 0.1}
+)");
+  for (const double setting : settings()) {
+    double most = 0.0;
+    bool at_wall = false;
+    run(
+        with(scene, setting),
+        [&](const Segment& g) {
+          std::array<double, kSiteCount> force{};
+          for (int i = 0; i < g.loaded_count; ++i)
+            force[static_cast<std::size_t>(g.loaded[i].site)] = value_at(g.loaded[i].normal_force, g.order, 0.0);
+          const double right = force[static_cast<std::size_t>(Site::b1_floor)],
+                       left = force[static_cast<std::size_t>(Site::b2_floor)];
+          EXPECT_NEAR(right, left, 1e-9 * (1.0 + right));
+          most = std::max(most, right);
+          at_wall = at_wall || force[static_cast<std::size_t>(Site::b1)] > 10.0;
+        },
+        scene.trial.time_limit);
+    EXPECT_GT(most, 50.0);
+    EXPECT_TRUE(at_wall);
+  }
+}
+
 // Every scene of the package ends alike, whatever the solver.
 class BatteryScenes : public test::SolverBattery {};
 INSTANTIATE_TEST_SUITE_P(solver, BatteryScenes, testing::ValuesIn(test::stated_solvers()), test::solver_test_name);

@@ -37,6 +37,23 @@ SMALL_SCENE = {
     "trial": {"time_limit": 3.0},
 }
 
+# One impact in SI units: a part that cannot tilt, on a base without damping, falls 1 mm on its spring at rest at the
+# height of touch, and slides to the right at 2 m/s; its length lets it do so on one edge.
+BALL_SI = {
+    "name": "ball",
+    "units": "si",
+    "part": {"mass": 0.1, "half_width": 2.0, "base_distance": 1.8e-3},
+    "slot": {"clearance": 2.0e-4},
+    "gripper": {"stiffness": {"x": 0.0, "y": 4000.0}, "anchor": {"y": 1.8e-3}},
+    "base": {"stiffness": {"y": 4.0e7}},
+    "contacts": ["edges"],
+    "friction": {"coefficient": 0.1},
+    "excitation": {"force": 0.0, "frequency": 10.0},
+    "initial": {"x": 0.4, "y": 2.8e-3, "vx": 2.0},
+    "trial": {"time_limit": 0.01},
+    "solver": {"tolerance": 1.0e-12},
+}
+
 
 class AlignTestCase(unittest.TestCase):
     """A test with a directory of its own in which `align` runs."""

@@ -37,6 +37,41 @@ class AccuracyTest(AlignTestCase):
         _, rows = self.study("--solvers", "implicit,event")
         self.assertEqual({row["solver"] for row in rows}, {"implicit", "event"})
 
+    def test_columns_are_those_of_a_trial(self):
+        # of a trial that ends at its time limit, so that both end at the same instant
+        scene = self.scene(trial={"time_limit": 0.5})
+        text, rows = self.study("--solvers", "implicit", scene=scene)
+        lines = [line.split() for line in text.splitlines() if line.startswith("implicit ")]
+        self.assertEqual(len(lines), len(rows))
+        for row, line in zip(rows, lines):
+            self.assertEqual((row["kind"], row["failure"]), ("tolerance", ""))
+            counts = self.trial(scene, "--solver", "implicit", "--tolerance", row["setting"])["solver"]
+            for column in ("rhs_evaluations", "steps", "rejected", "events"):
+                self.assertEqual(int(row[column]), counts[column], column)
+            self.assertLessEqual(int(row["repetitions"]), 50)
+            self.assertEqual(line[1:5], ["%.1e" % float(row["setting"]), "%.1e" % float(row["pose_error"]),
+                                         "%.1e" % float(row["force_error"]), "-"])
+            self.assertAlmostEqual(float(line[5]), 1e6 * float(row["cpu_seconds"]), delta=0.06)
+            self.assertEqual(line[6:9], [row["rhs_evaluations"], row["steps"], row["events"]])
+
+    def test_a_run_without_an_answer_has_a_row_that_says_why(self):
+        # steps of a thousandth of a period are too many for the limit, the coarsest is not
+        text, rows = self.study("--solvers", "rk4", scene=self.scene(solver={"step_limit": 2000}))
+        failed = [row for row in rows if row["failure"]]
+        self.assertTrue(failed)
+        self.assertLess(len(failed), len(rows))
+        for row in failed:
+            self.assertIn("step", row["failure"])
+            self.assertEqual({row[key] for key in ("pose_error", "cpu_seconds", "steps", "events", "energy_residual")}, {""})
+            self.assertEqual(row["reference_agreement"], rows[0]["reference_agreement"])
+            self.assertIn(row["failure"], text)
+
+    def test_advises_nothing_below_what_the_reference_knows(self):
+        text, rows = self.study("--solvers", "event", scene="central")
+        agreement = float(rows[0]["reference_agreement"])
+        self.assertGreater(agreement, 1e-9, "a scene whose answer is known shows nothing here")
+        self.assertIn("For an error of 1e-09: not known, the two references differ by more.", text)
+
     def test_says_how_good_the_reference_is(self):
         text, rows = self.study("--solvers", "event")
         agreement = "%.1e" % float(rows[0]["reference_agreement"])

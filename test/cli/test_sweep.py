@@ -170,6 +170,22 @@ class SummaryTest(SweepTestCase):
         text = self.sweep(study, "--csv", "out.csv", "--resume")
         self.assertIn("duration     least 1.231, quartiles 1.23, 1.23, 1.23, greatest 1.232", text)
 
+    def test_has_the_quartiles_of_many_trials(self):
+        # durations 1, 1.00001 ... 2
+        count = 100001
+        study = self.study(vary=[{"initial.x": {"from": 0.1, "to": 0.2, "count": count}}], without=["samples"])
+        self.sweep(study, "--csv", "out.csv", "--shard", "1/%d" % count)
+        head, columns, row = self.bytes_of("out.csv").decode().splitlines()
+        cells = row.split(",")
+        cells[2], cells[4] = "aligned", "%.17g"
+        row = ",".join(cells[1:])
+        with open(self.path("out.csv"), "w") as file:
+            file.write(head.split(", shard")[0] + "\n" + columns + "\n")
+            for trial in range(count):
+                file.write("%d," % trial + row % (1.0 + 1e-5 * trial) + "\n")
+        text = self.sweep(study, "--csv", "out.csv", "--resume")
+        self.assertIn("duration     least 1, quartiles 1.25, 1.5, 1.75, greatest 2\n", text)
+
     def test_counts_one_trial_as_one(self):
         text = self.sweep(self.study(without=["vary", "samples"]))
         self.assertIn("Study        study, 1 trial\n", text)
@@ -234,6 +250,10 @@ class RefusalTest(SweepTestCase):
 
     def test_a_full_disk_is_told(self):
         process = self.align("sweep", self.study(), "--csv", "/dev/full")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("/dev/full: cannot be written: No space left on device", process.stderr)
+        # also where all rows are in a buffer until the end
+        process = self.align("sweep", self.study(without=["vary", "samples"]), "--csv", "/dev/full")
         self.assertEqual(process.returncode, 1)
         self.assertIn("/dev/full: cannot be written: No space left on device", process.stderr)
         with open("/dev/full", "w") as full:

@@ -115,6 +115,13 @@ class ResumeTest(SweepTestCase):
             self.assertEqual(self.bytes_of(name), part)
             os.remove(self.path(name))
 
+    def test_a_file_that_is_not_whole_does_not_pass_for_whole(self):
+        lines = self.whole.split(b"\n")
+        part = b"\n".join(lines[:12]) + b"\n"
+        self.write("out.csv", part)
+        self.assert_refused(["sweep", "study.yaml", "--csv", "out.csv", "--resume"], "out.csv", "is not whole")
+        self.assertEqual(self.bytes_of("out.csv"), part)
+
     def test_another_file_is_refused_and_kept(self):
         self.write("out.csv", "my notes\n")
         self.assert_refused(["sweep", "study.yaml", "--csv", "out.csv", "--resume"], "out.csv", "cannot be continued")
@@ -205,6 +212,20 @@ class LongSweepTest(SweepTestCase):
             self.assertRegex(message, r"interrupted after \d+ of 2000 trials; \S*out.csv.part .*--resume")
             self.assertTrue(self.bytes_of("out.csv.part").endswith(b"\n"))
         self.assert_ends_as_one_run()
+
+    def test_rows_are_there_as_soon_as_their_trials_have_ended(self):
+        # two short trials, and one that would take hours
+        self.study(set={"solver": {"name": "rk4", "step": 1e-9, "step_limit": 10**15}},
+                   vary=[{"trial.time_limit": [1e-6, 1e-6, 3.0]}], without=["samples"])
+        process = self.start("--threads", "1")
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline:
+            if os.path.exists(self.path("out.csv.part")) and self.bytes_of("out.csv.part").count(b"\n") == 4:
+                return
+            time.sleep(0.01)
+        self.fail("no rows come")
 
     def test_has_no_bar_among_the_rows_on_a_terminal(self):
         self.study(samples={"count": 100000, "seed": 1})

@@ -3,14 +3,16 @@
 import csv
 import json
 import os
+import resource
 import signal
 import subprocess
 import time
 import unittest
 
 import rosbag
+import yaml
 
-from align_test_case import SOURCE_ROOT, AlignTestCase
+from align_test_case import BALL_SI, SOURCE_ROOT, AlignTestCase
 
 COLUMNS = (
     "t,x,y,phi,vx,vy,omega,n1,n2,t1,t2,nb1,nb2,tb1,tb2,nf1,nf2,tf1,tf2,event".split(",")
@@ -97,6 +99,57 @@ class CsvTest(AlignTestCase):
         arguments = ["trial", self.scene(), "--sample", "1e-12"]
         self.assertEqual(self.align(*arguments).returncode, 0)
         self.assert_refused(arguments + ["--csv", "run.csv"], "--sample", "1e9 samples")
+
+    def rows_of(self, scene, *arguments):
+        """The report of a trial of the scene and its rows, as dictionaries of floats."""
+        report = self.trial(scene, "--csv", "run.csv", *arguments)
+        with open(self.path("run.csv")) as file:
+            return report, [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_a_full_disk_is_told_at_the_end_too(self):
+        # a few rows, all in a buffer until the file is closed, and files that end at 128 bytes
+        def end_files_at_128_bytes():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (128, 128))
+        in_the_air = self.scene(initial={"x": 0.2, "y": 5.0, "phi": 0.0})
+        process = self.align("trial", in_the_air, "--csv", "run.csv", "--sample", "0.02", "--until", "0.1",
+                             preexec_fn=end_files_at_128_bytes)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("run.csv: cannot be written: File too large", process.stderr)
+        self.assertEqual(os.listdir(self.directory), ["small.yaml"])
+
+    def test_is_in_si_units(self):
+        # half a swing of the base takes 0.16 ms
+        report, rows = self.rows_of(self.write("ball.yaml", yaml.safe_dump(BALL_SI)), "--sample", "1e-6")
+        for key, value in report["final"].items():
+            self.assertEqual(rows[-1][key], value, key)
+        peak = report["peak_force"]["a1"]
+        self.assertAlmostEqual(max(row["n1"] for row in rows), peak, delta=1e-3 * peak)
+        # it slides to the right: friction pulls it to the left
+        self.assertAlmostEqual(min(row["t1"] for row in rows), -0.1 * peak, delta=1e-3 * peak)
+        self.assertEqual(max(row["t1"] for row in rows), 0.0)
+        for column in ("n2", "t2", "nb1", "nb2", "tb1", "tb2", "nf1", "nf2", "tf1", "tf2"):
+            self.assertEqual({row[column] for row in rows}, {0.0}, column)
+
+    def test_corners_have_their_own_columns(self):
+        # turned to the left, and held so, a part comes down on its left corner: b2; on the top surface, beside the slot,
+        # or on the floor in it
+        part = {"half_width": 0.7, "base_distance": 0.9}
+        excitation = {"amplitude": 0.0, "frequency": 20.0}
+        for phi, corner, other in ((0.01, "b2", "b1"), (-0.01, "b1", "b2")):
+            aside = {"x": -0.5 if phi > 0 else 0.5, "y": 0.96, "phi": phi}
+            top = self.scene("top.yaml", part=part, contacts=["corners"], excitation=excitation, initial=aside,
+                             gripper={"damping": {"y": 0.5}, "anchor": {"y": 0.8}})
+            floor = self.scene("floor.yaml", part=part, contacts=["walls"], excitation=excitation,
+                               slot={"clearance": 0.09, "depth": 0.3}, initial={"x": 0.0, "y": 0.7, "phi": phi},
+                               gripper={"damping": {"y": 0.5}, "anchor": {"y": 0.4}})
+            for name, path in (("nb", top), ("nf", floor)):
+                with self.subTest(corner=corner, column=name):
+                    report, rows = self.rows_of(path, "--sample", "1e-3", "--until", "1.2")
+                    self.assertGreater(report["impacts"][corner], 0)
+                    self.assertEqual(report["impacts"][other], 0)
+                    self.assertGreater(max(row[name + corner[1]] for row in rows), 0.0)
+                    self.assertEqual(max(row[name + other[1]] for row in rows), 0.0)
 
     def test_is_not_the_file_that_the_report_goes_to(self):
         for name in ("/dev/stdout", "out.txt"):

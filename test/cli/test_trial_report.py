@@ -1,11 +1,15 @@
 """`align trial`: what it reports, and that the same call gives the same bits."""
 
 import json
+import math
 import os
+import re
 import shutil
 import unittest
 
-from align_test_case import SOURCE_ROOT, AlignTestCase
+import yaml
+
+from align_test_case import BALL_SI, SOURCE_ROOT, AlignTestCase
 
 REPORT_KEYS = {
     "scene", "outcome", "mode", "duration", "final", "impacts", "peak_force", "first_contact", "energy", "solver"
@@ -157,6 +161,82 @@ class RepeatTest(AlignTestCase):
         for sample in ("0.001", "0.37", "100"):
             recorded = self.report_without_cpu_time(self.scene(), "--csv", self.path("run.csv"), "--sample", sample)
             self.assertEqual(recorded, plain, "--sample " + sample)
+
+# What BALL_SI does: it meets the base with v = h sqrt(K/m), which turns it back.
+MASS, SPRING, BASE, HEIGHT, FRICTION = 0.1, 4000.0, 4e7, 1e-3, 0.1
+SPEED = HEIGHT * math.sqrt(SPRING / MASS)
+FALL = 0.5 * math.pi * math.sqrt(MASS / SPRING)
+PEAK = BASE * SPEED / math.sqrt((BASE + SPRING) / MASS)
+LOST = FRICTION * 2.0 * SPEED  # of the velocity along x, near enough: K is next to nothing beside the base
+
+
+class SiTest(AlignTestCase):
+    def ball(self, **changes):
+        return self.write("ball.yaml", yaml.safe_dump({**BALL_SI, **changes}))
+
+    def assert_near(self, value, expected, share=1e-3):
+        self.assertLess(abs(value - expected), share * abs(expected), (value, expected))
+
+    def test_the_report_is_in_si_units(self):
+        report = self.trial(self.ball())
+        first = report["first_contact"]
+        self.assertEqual(first["at"], "a1")
+        self.assert_near(first["t"], FALL)
+        self.assert_near(first["y"], 1.8e-3)
+        self.assert_near(first["approach_speed"], SPEED)
+        self.assert_near(first["vy"], -SPEED)
+        self.assert_near(first["slip_velocity"], 2.0)
+        self.assert_near(first["vx"], 2.0)
+        self.assert_near(report["peak_force"]["a1"], PEAK)
+        self.assertEqual([report["peak_force"][spot] for spot in ("a2", "b1", "b2")], [0.0, 0.0, 0.0])
+        self.assert_near(report["final"]["vx"], 2.0 - LOST)
+        energy, final = report["energy"], report["final"]
+        self.assert_near(energy["initial"], 0.5 * MASS * 2.0**2 + 0.5 * SPRING * HEIGHT**2, 1e-9)
+        self.assert_near(energy["final"], 0.5 * MASS * (final["vx"] ** 2 + final["vy"] ** 2) +
+                         0.5 * SPRING * (final["y"] - 1.8e-3) ** 2, 1e-9)
+        self.assert_near(energy["friction_loss"], 0.5 * MASS * (2.0**2 - (2.0 - LOST) ** 2))
+        self.assertEqual((energy["base_loss"], energy["gripper_loss"], energy["excitation_work"]), (0.0, 0.0, 0.0))
+
+    def test_steps_are_in_seconds(self):
+        self.assertEqual(self.trial(self.ball(), "--solver", "rk4", "--step", "1e-6")["solver"]["step"], 1e-6)
+
+    def test_times_of_a_trial_that_aligns_are_in_seconds(self):
+        report = self.trial("gripper_si")
+        self.assertEqual(report["outcome"], "aligned")
+        self.assertEqual(report["duration"], report["final"]["t"])
+        times = [change["t"] for change in report["mode_changes"]]
+        self.assertTrue(times)
+        self.assertEqual(times, sorted(times))
+        self.assertLess(times[-1], report["final"]["t"])
+
+    def test_the_terms_of_the_energy_are_the_balance(self):
+        energy = self.trial("gripper_si")["energy"]
+        losses = sum(energy[key] for key in ("gripper_loss", "base_loss", "friction_loss", "release_loss"))
+        rest = energy["initial"] + energy["excitation_work"] + energy["turning"] - losses - energy["final"]
+        self.assertLess(abs(rest), 1e-9 * energy["exchanged"])
+
+    def test_the_summary_has_milliseconds_millimetres_and_newtons(self):
+        scene = self.ball(trial={"time_limit": 0.01, "force_limit": 1.0})
+        report = self.trial(scene)
+        process = self.align("trial", scene)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        text = process.stdout
+        final = report["final"]
+        for label, value, unit in (("time", 1e3 * final["t"], "ms"), ("x", 1e3 * final["x"], "mm"),
+                                   ("y", 1e3 * final["y"], "mm"), ("tilt phi", final["phi"], "rad"),
+                                   ("vx", 1e3 * final["vx"], "mm/s"), ("vy", 1e3 * final["vy"], "mm/s"),
+                                   ("omega", final["omega"], "rad/s")):
+            with self.subTest(label):
+                number = re.search(r"(?m)^  %s +(\S+) %s$" % (label, unit), text).group(1)
+                self.assertAlmostEqual(float(number), value, delta=1e-6 * abs(value))
+        first = re.search(r"(?m)^First contact +a1 at (\S+) ms, approach speed (\S+) mm/s, slip velocity (\S+) mm/s$", text)
+        for number, expected in zip(first.groups(), (1e3 * FALL, 1e3 * SPEED, 2e3)):
+            self.assert_near(float(number), expected)
+        self.assert_near(float(re.search(r"(?m)^Peak force +(\S+) +0 +0 +0 N$", text).group(1)), PEAK)
+        self.assertIn("The force limit 1 N was exceeded.", text)
+        self.assertNotIn("force limit", self.align("trial", self.ball()).stdout)
+        milliseconds = float(re.search(r"([0-9.e+-]+) ms of CPU time", text).group(1))
+        self.assertLess(abs(math.log10(milliseconds / (1e3 * report["solver"]["cpu_seconds"]))), 1.5)
 
 
 class SummaryTest(AlignTestCase):

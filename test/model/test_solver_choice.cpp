@@ -97,6 +97,20 @@ TEST(SolverChoice, AFixedStepThatIsNotGivenFollowsTheFastestMotion) {
   EXPECT_FALSE(load(least, {}).solver.step);
 }
 
+// An edge that lies far up a side face has its height as lever: G = 1 + (a^2 + y^2)/mu.
+TEST(SolverChoice, AFixedStepThatIsNotGivenHoldsForAStartDeepInTheSlot) {
+  const auto step = [](const char* y) {
+    return load(least, {"solver={name: rk4}", "part.inertia=0.25", "gripper.stiffness.phi=1",
+                        "base={stiffness: {y: 1e6}}", std::string("initial={x: 0, y: ") + y + "}"})
+        .solver.step.value();
+  };
+  const Scene scene = load(least);
+  const double a = scene.part.half_width, b = scene.part.base_distance;
+  const auto expected = [a](double lever) { return 0.02 / std::sqrt(1e6 * (1.0 + (a * a + lever * lever) / 0.25)); };
+  EXPECT_NEAR(step("-20") / expected(20.0), 1.0, 1e-12);
+  EXPECT_NEAR(step("1.5") / expected(b), 1.0, 1e-12);
+}
+
 // In seconds it is the same share of the period.
 TEST(SolverChoice, AFixedStepThatIsNotGivenHasTheUnitOfTheScene) {
   const Scene scene = load(least_si, {"solver={name: rk4}", "base={stiffness: {y: 1.0}}", "gripper.stiffness.y=1.0",

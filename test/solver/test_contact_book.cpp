@@ -191,6 +191,16 @@ TEST(ContactBook, corners_reach_the_floor_in_the_slot_only) {
   EXPECT_EQ(deeper[1].site, Site::b2_floor);
 }
 
+// Down beside a wall, from within the slot: at the end of the step the corner is beyond the wall's line and below the
+// floor, and has come to both.
+TEST(ContactBook, a_corner_comes_to_wall_and_floor_in_one_step) {
+  Led part({0.09, 0.405, 0.0, 1.0, -1.0, 0.0}, {"contacts=[walls]", "slot.depth=0.5"});
+  part.to({0.101, 0.399, 0.0, 1.0, -1.0, 0.0});
+  EXPECT_EQ(part.contact(Site::b1).face, Face::right_wall);
+  EXPECT_EQ(part.contact(Site::b1_floor).face, Face::floor);
+  EXPECT_EQ(part.contact(Site::b2_floor).face, Face::floor);
+}
+
 // u = d at the release, then exp(-(k/h) t): here k/h = 100. The part is met where the base is.
 TEST(ContactBook, a_base_that_recovers_is_met_where_it_is) {
   const std::vector<std::string> settings = {"contacts=[edges]", "base.recovery=true"};

@@ -239,6 +239,49 @@ trial: {time_limit: 3.0, aligned_depth: 0.29}
   EXPECT_GT(looked, 1000);
 }
 
+// The contact that a trial starts in is no impact, also where its depth is zero; and an outcome that holds at the start
+// is of the start.
+TEST_P(StepContacts, what_holds_at_the_start_happens_there) {
+  for (const double h : {1e-3, 1e-4}) {
+    const Scene on_face = with_solver(scene_of(test::ball, {"initial.y=0.9"}), GetParam(), h);
+    const TrialResult result = run(on_face, {}, 0.1);
+    EXPECT_EQ(result.impacts[0], 0);
+    EXPECT_GT(result.peak_force[0], 0.2);
+    EXPECT_FALSE(result.first_contact);
+    // it is deep enough in the slot for less than a step
+    const Scene aligned = with_solver(scene_of(test::ball, {"initial={x: 0, y: 0.799995, vy: 1}",
+                                                            "trial.aligned_depth=0.1", "gripper.anchor.y=0.95"}),
+                                      GetParam(), h);
+    const TrialResult at_once = run(aligned);
+    EXPECT_EQ(at_once.outcome, Outcome::aligned);
+    EXPECT_EQ(at_once.aligned_time, 0.0);
+  }
+}
+
+// An edge and a corner under a base whose damper stops the part within a two hundredth of a step: both have the same d'
+// and k, so that N differs by k times the difference of the depths, at every instant.
+TEST_P(StepContacts, strong_dampers_leave_the_difference_of_two_forces_to_the_springs) {
+  if (GetParam() == "rk4") return;  // such dampers bound its steps
+  const double k = 1e6;
+  const std::vector<std::string> settings = {
+      "part={half_width: 0.6, base_distance: 0.9}", "base={stiffness: {x: 1e6, y: 1e6}, damping: {x: 2e5, y: 2e5}}",
+      "gripper.anchor.y=-2.1", "contacts=[edges, corners]", "initial={x: 0.2, y: 0.899985, phi: 1e-5}"};
+  for (const double h : {1e-3, 2e-5}) {
+    double looked = 0.0;
+    run(
+        with_solver(scene_of(test::ball, settings), GetParam(), h),
+        [&](const Segment& g) {
+          if (g.loaded_count != 2) return;
+          const ContactSeries &a = g.loaded[0], &b = g.loaded[1];
+          const double apart = k * (a.depth[0] - b.depth[0]);
+          EXPECT_NEAR(a.normal_force[0] - b.normal_force[0], apart, 1e-6 * std::abs(apart));
+          looked += g.duration;
+        },
+        0.02);
+    EXPECT_GT(looked, 0.015);
+  }
+}
+
 // A ball that is shaken on a base with k/h = 2.7 or 29, slow beside its flights.
 TEST_P(StepContacts, a_base_that_recovers_converges) {
   for (const std::vector<std::string>& base :

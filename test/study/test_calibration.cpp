@@ -361,5 +361,124 @@ TEST(CalibrationFile, names_what_is_wrong) {
   EXPECT_TRUE(says(refusal("finalists: 2", "finalists: 2\n  leave_out: [Q]"), "search.leave_out: Q: must be the id"));
 }
 
+std::string changed_text(const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string text = calibration_text;
+  for (const auto& [from, to] : changes) text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+// Of the second reading no blow is hard enough, whatever the stiffness: its set meets one fact of two.
+TEST(Calibration, names_the_finalist_first_that_meets_most) {
+  const CalibrationResult result =
+      CalibrationFiles(
+          changed_text({{"{blow: {weight: 0.05 * 2}}", "{blow: {initial.vy: 0}}"}, {"searches: 2", "searches: 1"}}))
+          .run(1);
+  ASSERT_EQ(result.best.size(), 2u);
+  for (const CalibratedSet& set : result.best) EXPECT_EQ(set.results.size(), 2u) << "judged on the whole studies";
+  EXPECT_EQ(result.best[0].met(), 2u);
+  EXPECT_EQ(result.best[1].met(), 1u);
+}
+
+// Three of four searches go on to the round; seeds of one reading look at other sets.
+TEST(Calibration, goes_on_with_as_many_searches_as_a_round_has) {
+  const CalibrationResult result = CalibrationFiles(changed_text({{"global_evaluations: 40", "global_evaluations: 12"},
+                                                                  {"shared_evaluations: 20", "shared_evaluations: 1"},
+                                                                  {"local_evaluations: 40", "local_evaluations: 1"},
+                                                                  {"start: 500", "start: 100"},
+                                                                  {"C1: 700", "C1: 100"}}))
+                                       .run(1);
+  std::size_t went_on = 0;
+  std::map<std::size_t, std::vector<double>> found;
+  for (const CalibratedSet& set : result.best) {
+    went_on += set.rounds;
+    const auto [other, is_new] = found.emplace(set.reading, set.values);
+    if (!is_new) {
+      EXPECT_NE(other->second, set.values) << "seed " << set.seed;
+    }
+  }
+  EXPECT_EQ(went_on, 3u);
+}
+
+// Without the others the last stage finds it alone.
+TEST(Calibration, ends_with_a_look_nearby) {
+  const CalibrationResult result = CalibrationFiles(changed_text({{"global_evaluations: 40", "global_evaluations: 1"},
+                                                                  {"shared_evaluations: 20", "shared_evaluations: 1"},
+                                                                  {"start: 500", "start: 5000"}}))
+                                       .run(1);
+  EXPECT_NEAR(result.best.front().values.front(), 1e4, 200.0);
+}
+
+// Of one value that all studies share, so that `own_evaluations` are nobody's: the start, and as many as are asked for.
+TEST(Calibration, looks_at_no_more_sets_than_it_is_to) {
+  const CalibrationResult result = CalibrationFiles(changed_text({{"global_evaluations: 40", "global_evaluations: 3"},
+                                                                  {"shared_evaluations: 20", "shared_evaluations: 4"},
+                                                                  {"local_evaluations: 40", "local_evaluations: 5"},
+                                                                  {"start: 500", "start: 100"},
+                                                                  {"C1: 700", "C1: 100"}}))
+                                       .run(1);
+  EXPECT_EQ(result.evaluations, 4u * (1u + 3u) + 3u * (1u + 4u + 5u));
+}
+
+// Of three speeds only the middle one makes the force that is asked for: every second value leaves it out. What is left
+// out is judged by the finalists alone.
+TEST(Calibration, judges_sets_on_thinned_studies_without_what_is_left_out) {
+  test::Folder folder;
+  folder.write("scene.yaml", scene);
+  folder.write("blow.yaml", "scene: scene.yaml\nvary: {initial.vy: {from: -1, to: -3, count: 3}}\n");
+  std::string text = facts;
+  text.replace(text.find("rows: {take: max}"), 17, "where: abs(initial.vy + 2) < 0.5, rows: {take: max}");
+  folder.write("facts.yaml", text);
+  const std::string file = folder.write("calibration.yaml", calibration_text);
+  Calibration calibration = load_calibration(file);
+  const FactSuite suite = load_fact_suite(calibration.facts_file, [](const std::string& name) { return name; });
+  const auto answer_of = [&](const Thinning& thinning) {
+    const ShortfallOfSets shortfall(calibration, calibration.readings[0], suite, thinning);
+    return shortfall({1e4}, shortfall.all(), INFINITY, [] { return true; });
+  };
+  EXPECT_EQ(answer_of({1, 1}).shortfall(), 0.0);
+  EXPECT_EQ(answer_of({1, 1}).trials, 3u);
+  EXPECT_EQ(answer_of({1, 2}).shortfall(), 3.0 / 4.0);  // nothing there: 3
+  EXPECT_EQ(answer_of({1, 2}).trials, 2u);
+  calibration.search.leave_out = {"P"};
+  EXPECT_EQ(answer_of({1, 2}).shortfall(), 0.0);
+}
+
+// A log of answers is of use for the same questions alone.
+TEST(Calibration, has_another_fingerprint_where_facts_or_studies_are_others) {
+  test::Folder folder;
+  folder.write("scene.yaml", scene);
+  const auto print = [&](const std::string& study, const std::string& facts_text, const std::string& text,
+                         const std::string& version) {
+    folder.write("blow.yaml", study);
+    folder.write("facts.yaml", facts_text);
+    return fingerprint(
+        load_calibration(folder.write("calibration.yaml", text)), [](const std::string& name) { return name; },
+        version);
+  };
+  const std::string study = "scene: scene.yaml\n", other_study = "scene: scene.yaml\nset: {weight: 0.01}\n";
+  std::string other_facts = facts;
+  other_facts.replace(other_facts.find("199.8"), 5, "199.9");
+  const std::string same = print(study, facts, calibration_text, "1");
+  EXPECT_EQ(print(study, facts, std::string(calibration_text) + "# a comment\n", "1"), same);
+  EXPECT_NE(print(other_study, facts, calibration_text, "1"), same);
+  EXPECT_NE(print(study, other_facts, calibration_text, "1"), same);
+  EXPECT_NE(print(study, facts, changed_text({{"start: 500", "start: 501"}}), "1"), same);
+  EXPECT_NE(print(study, facts, calibration_text, "2"), same);
+}
+
+// BOBYQA has no room for a step of more than half a range: a file that asks for it is refused when it is read, not
+// after the search of all ranges, or it is searched as far as there is room.
+TEST(CalibrationThatAdapts, has_a_reach_that_can_be_searched) {
+  std::string text = two_blows(adapting);
+  text.replace(text.find("reach: 0.1"), 10, "reach: 0.6");
+  try {
+    run_two_blows(text);
+  } catch (const SceneError&) {
+    // refused at once
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "model/setting.h"
 #include "study/design.h"
@@ -182,6 +183,36 @@ samples: {count: 2, seed: 1}
   EXPECT_EQ(value("impacts_b1"), 3.0);
   EXPECT_EQ(value("last_impact_b1"), 0.7);
   EXPECT_TRUE(std::isnan(value("last_impact_a1")));
+}
+
+// Keys of one entry change together in the thinned study too, and entries beside them keep their values.
+TEST(Thinned, keeps_the_values_of_one_entry_together) {
+  const Study study = test::study_of(R"(
+vary:
+  - {gripper.pressing_force: {from: 0, to: 1, count: 11}, initial.x: {from: 0.1, to: 0.3, count: 11}}
+  - friction.coefficient: {from: 0.1, to: 0.5, count: 5}
+)");
+  const Study thin = thinned(study, {1, 2});
+  ASSERT_EQ(trial_count(thin), 6U * 3U);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::vector<VariedValue> found = values_at(thin, 3 * i + k), whole = values_at(study, 5 * 2 * i + 2 * k);
+      for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(found[v].number, whole[v].number) << i << ' ' << k << ' ' << v;
+    }
+}
+
+// Whichever stands first: a list and a range of one entry change together in the thinned study as in the whole one.
+TEST(Thinned, keeps_a_list_beside_a_range_together) {
+  const std::string range = "gripper.pressing_force: {from: 0, to: 1, count: 5}",
+                    list = "initial.x: [0.1, 0.2, 0.3, 0.4, 0.5]";
+  for (const std::string& entry : {range + ", " + list, list + ", " + range}) {
+    const Study study = test::study_of("vary: [{" + entry + "}]"), thin = thinned(study, {1, 2});
+    std::map<double, double> whole;
+    for (std::size_t i = 0; i < trial_count(study); ++i)
+      whole[values_at(study, i)[0].number] = values_at(study, i)[1].number;
+    for (std::size_t i = 0; i < trial_count(thin); ++i)
+      EXPECT_EQ(values_at(thin, i)[1].number, whole[values_at(thin, i)[0].number]) << entry << ", trial " << i;
+  }
 }
 
 }  // namespace

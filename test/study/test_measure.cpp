@@ -128,6 +128,9 @@ TEST(Curves, are_cut_to_a_range) {
   EXPECT_EQ(read_measure(measure, durations()).value, 11.0);
   measure.curves.within = {1.0, 2.0 - 1e-12};  // a grid's 2 may miss the 2 of the file by roundoff
   EXPECT_EQ(read_measure(measure, durations()).value, 22.0);
+  measure = curves(CurveNumber::min, CurveJoin::min);
+  measure.curves.within = {1.0 + 1e-12, 2.0};
+  EXPECT_EQ(read_measure(measure, durations()).value, 10.0);
 }
 
 TEST(Curves, along_the_other_value) {
@@ -217,6 +220,61 @@ TEST(Measure, needs_its_tables_and_columns) {
   measure = curves(CurveNumber::mean);
   measure.curves.along = "nu";
   EXPECT_THROW(read_measure(measure, durations()), std::out_of_range);
+}
+
+/// One point with so many samples, of which the condition `half` holds in every other one.
+Tables samples(std::size_t count) {
+  Table table;
+  table.names = {"sample", "half", "f0", "x"};
+  table.columns.resize(4);
+  for (std::size_t s = 0; s < count; ++s) {
+    const double row[] = {static_cast<double>(s), static_cast<double>(s % 2), 1.0, 1.0};
+    for (std::size_t i = 0; i < 4; ++i) table.columns[i].push_back(row[i]);
+  }
+  return {{{"study", false}, table}};
+}
+
+// The number of 16 draws in which a condition of probability 1/2 holds is binomial: at most 4 in 3.8 % of all, at most
+// 5 in 10.5 %, and the same from above.
+TEST(Resampling, tells_the_range_of_5_to_95_percent) {
+  const Reading reading = read_measure(rows(RowStatistic::share, "half"), samples(16), 4000);
+  EXPECT_EQ(reading.value, 0.5);
+  EXPECT_EQ(reading.low, 5.0 / 16.0);
+  EXPECT_EQ(reading.high, 11.0 / 16.0);
+}
+
+// All that is measured shares its draws, so that a ratio of something to itself is 1 whatever is drawn.
+TEST(Resampling, draws_the_same_samples_for_both_terms_of_a_ratio) {
+  Measure measure;
+  measure.kind = Measure::Kind::ratio;
+  measure.terms = {rows(RowStatistic::mean, "duration", "f0 == 1 && x == 0"),
+                   rows(RowStatistic::mean, "duration", "f0 == 1 && x == 0")};
+  const Reading reading = read_measure(measure, durations(), 50);
+  EXPECT_EQ(reading.low, 1.0);
+  EXPECT_EQ(reading.high, 1.0);
+}
+
+// What there is to read: of a ratio no more than of either term, of a region the share of the samples that hold.
+TEST(Coverage, is_that_of_what_is_read) {
+  Measure ratio;
+  ratio.kind = Measure::Kind::ratio;
+  const Measure there = rows(RowStatistic::mean, "1"), nothing = rows(RowStatistic::mean, "duration", "x == 2");
+  for (const auto& terms : {std::vector<Measure>{there, nothing}, std::vector<Measure>{nothing, there}}) {
+    ratio.terms = terms;
+    const Reading reading = read_measure(ratio, durations());
+    EXPECT_TRUE(std::isnan(reading.value));
+    EXPECT_EQ(reading.coverage, 0.0);
+  }
+  Measure region;
+  region.kind = Measure::Kind::region;
+  region.table = {"study", false};
+  region.of = "sample < 1";
+  region.region.x = "f0";
+  region.region.y = "x";
+  region.region.take = RegionNumber::largest_piece;
+  const Reading reading = read_measure(region, samples(16));
+  EXPECT_TRUE(std::isnan(reading.value));
+  EXPECT_EQ(reading.coverage, 1.0 / 16.0);
 }
 
 }  // namespace

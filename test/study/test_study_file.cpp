@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "model/scene_error.h"
 #include "study/design.h"
+#include "study/fingerprint.h"
 #include "study/study_refusals.h"
 #include "study_text.h"
 
@@ -183,6 +185,37 @@ TEST(StudyFile, OfNoSceneIsRefused) {
   }
   EXPECT_THROW(load_study(folder.write("s.yaml", "vary: {initial.x: [1]}"), none), SceneError);
   EXPECT_THROW(load_study("/nosuch/study.yaml", none), SceneError);
+}
+
+// --resume and `align merge` go by it: rows of one study must not pass for those of another one.
+TEST(Fingerprint, TellsStudiesOfOtherTrialsApart) {
+  const std::vector<std::string> others = {
+      "",
+      "set: {initial.x: 0.25}",
+      "vary: {initial.x: {from: 0.1, to: 0.4, count: 4}}",
+      "vary: {initial.x: {from: 0.2, to: 0.4, count: 4}}",
+      "vary: {initial.x: {from: 0.1, to: 0.5, count: 4}}",
+      "vary: {initial.x: {from: 0.1, to: 0.4, count: 5}}",
+      "vary: {initial.x: {from: 0.1, to: 0.4, count: 4, spacing: log}}",
+      "vary: {initial.x: {from: 0.1, to: 0.4, count: 4, as: offset}}",
+      "vary: {initial.vx: {from: 0.1, to: 0.4, count: 4}}",
+      "vary: {initial.x: [0.1, 0.2, 0.3, 0.4]}",
+      "vary: {initial.x: [0.1, 0.2, 0.3, 0.5]}",
+      "vary: {initial.x: {from: 0.1, to: 0.4}}\nsamples: {count: 4}",
+      "vary: {initial.x: {from: 0.1, to: 0.4}}\nsamples: {count: 8}",
+      "vary: {initial.x: {from: 0.1, to: 0.4}}\nsamples: {count: 4, seed: 1}",
+      "vary: {initial.x: {from: 0.1, to: 0.4}}\nsamples: {count: 4, method: random}",
+      "vary: [{initial.x: [0.1, 0.2]}, {initial.vx: [0.1, 0.2]}]",
+      "vary: [{initial.vx: [0.1, 0.2]}, {initial.x: [0.1, 0.2]}]",
+      "vary: [{initial.x: [0.1, 0.2], initial.vx: [0.1, 0.2]}]",
+  };
+  std::set<std::string> seen;
+  for (const std::string& text : others) {
+    const std::string found = fingerprint(study_of(text), "1.0");
+    EXPECT_TRUE(seen.insert(found).second) << text;
+    EXPECT_EQ(fingerprint(study_of(text + "\n# a comment"), "1.0"), found) << text;
+    EXPECT_NE(fingerprint(study_of(text), "1.1"), found) << text;
+  }
 }
 
 }  // namespace

@@ -95,5 +95,91 @@ vary:
   EXPECT_THROW(touch_table(study, [] { return false; }), std::runtime_error);
 }
 
+// The ball of the first test in SI units, m, K, k of the gripper and of the base, dropped from h above: it meets the
+// base with v = h sqrt(K/m), is in it for half a swing of sqrt((k + K)/m), and comes back after half a swing of its
+// own.
+TEST(Touches, are_in_the_units_of_the_scene) {
+  constexpr double m = 0.1, K = 4000.0, k = 4e7, h = 1e-3;
+  Scene scene = test::scene_of(R"(
+units: si
+part: {mass: 0.1, half_width: 2.0e-3, base_distance: 1.8e-3}
+slot: {clearance: 2.0e-4}
+gripper: {stiffness: {y: 4000}, anchor: {y: 1.8e-3}}
+base: {stiffness: {y: 4.0e+7}}
+contacts: [edges]
+excitation: {force: 0, frequency: 10}
+initial: {x: 4.0e-4, y: 2.8e-3}
+trial: {time_limit: 0.03}
+)");
+  scene.solver.tolerance = 1e-12;
+  const std::vector<Touch> touches = touches_of(scene);
+  ASSERT_EQ(touches.size(), 2U);
+  const double v = h * std::sqrt(K / m), rate = std::sqrt((k + K) / m);
+  for (const Touch& touch : touches) {
+    EXPECT_NEAR(touch.contact_time * rate / kPi, 1.0, 1e-7);
+    EXPECT_NEAR(touch.peak_force / (k * v / rate), 1.0, 1e-7);
+    EXPECT_NEAR(touch.normal_impulse / (2.0 * m * v * k / (k + K)), 1.0, 1e-7);
+    EXPECT_NEAR(touch.state.vy / -v, 1.0, 1e-7);
+    EXPECT_NEAR(touch.state.y / 1.8e-3, 1.0, 1e-7);
+    EXPECT_NEAR(touch.state.x / 4e-4, 1.0, 1e-12);
+  }
+  EXPECT_NEAR(touches[0].time / (kPi / 2.0 * std::sqrt(m / K)), 1.0, 1e-7);
+  EXPECT_NEAR(touches[1].gap / (kPi * std::sqrt(m / K)), 1.0, 1e-7);
+  EXPECT_NEAR(touches[1].peak_before / touches[0].peak_force, 1.0, 1e-15);
+}
+
+// It ends in the middle of its first impact.
+TEST(Touches, have_the_one_that_the_trial_ends_in) {
+  constexpr double k = 1e4;
+  Scene scene =
+      test::scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "base={stiffness: {y: 1.0e4}}"});
+  scene.trial.time_limit = kPi / 2.0 + 0.5 * kPi / std::sqrt(k + 1.0);
+  const std::vector<Touch> touches = touches_of(scene);
+  ASSERT_EQ(touches.size(), 1U);
+  EXPECT_NEAR(touches[0].contact_time, 0.5 * kPi / std::sqrt(k + 1.0), 1e-9);
+}
+
+// Each column has what its name says, and a trial that is refused has no rows and ends nothing.
+TEST(TouchTable, has_the_numbers_of_each_touch_under_their_names) {
+  const std::vector<std::string> settings = {"trial.time_limit=6", "friction.coefficient=0.2",
+                                             "gripper={stiffness: {x: 0}, anchor: {y: 0.6}}", "base.damping.y=5"};
+  std::string set;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    set += (set.empty() ? "" : ", ") + setting.substr(0, equals) + ": " + setting.substr(equals + 1);
+  }
+  const Table table = touch_table(
+      test::study_of("set: {" + set + "}\nvary: [{initial.vx: [0.04, nonsense, 0.08]}]\n", test::ball + "\n"));
+  std::size_t row = 0;
+  for (const char* speed : {"0.04", "0.08"}) {
+    std::vector<std::string> all = settings;
+    all.push_back(std::string("initial.vx=") + speed);
+    const std::vector<Touch> touches = touches_of(test::scene_of(test::ball, all));
+    ASSERT_GT(touches.size(), 2U);
+    for (const Touch& touch : touches) {
+      ASSERT_LT(row, table.rows());
+      const auto expect = [&](const char* name, double value) {
+        const double found = (*table.find(name))[row];
+        EXPECT_TRUE(found == value || (std::isnan(found) && std::isnan(value))) << name << ": " << found;
+      };
+      expect("time", touch.time);
+      expect("contact_time", touch.contact_time);
+      expect("gap", touch.gap);
+      expect("peak_force", touch.peak_force);
+      expect("peak_before", touch.peak_before);
+      expect("normal_impulse", touch.normal_impulse);
+      expect("friction_impulse", touch.friction_impulse);
+      expect("x", touch.state.x);
+      expect("y", touch.state.y);
+      expect("phi", touch.state.phi);
+      expect("vx", touch.state.vx);
+      expect("vy", touch.state.vy);
+      expect("omega", touch.state.omega);
+      ++row;
+    }
+  }
+  EXPECT_EQ(row, table.rows());
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

@@ -199,5 +199,60 @@ TEST(TrialRow, OfATrialThatBreaksOffIsFailed) {
   EXPECT_NE(row.reason.find("step"), std::string::npos) << row.reason;
 }
 
+// One impact of a ball in SI units: m, K, k of the gripper and of the base, dropped from h above with the sideways
+// speed u over a base with friction f, which it slides on all the time.
+TEST(TrialRow, HasEveryNumberInTheUnitsOfTheScene) {
+  constexpr double m = 0.1, K = 4000.0, k = 4e7, h = 1e-3, f = 0.1, u = 2.0;
+  Scene scene = scene_of(R"(
+units: si
+part: {mass: 0.1, half_width: 2.0, base_distance: 1.8e-3}
+slot: {clearance: 2.0e-4}
+gripper: {stiffness: {x: 0, y: 4000}, anchor: {y: 1.8e-3}}
+base: {stiffness: {y: 4.0e+7}}
+contacts: [edges]
+friction: {coefficient: 0.1}
+excitation: {force: 8, frequency: 10, direction: x}
+initial: {x: 0.4, y: 2.8e-3, vx: 2.0}
+trial: {time_limit: 0.01}
+)");
+  scene.excitations[0].amplitude = 0.0;
+  scene.solver.tolerance = 1e-12;
+  const TrialRow row = run_trial_row(scene, 0);
+  ASSERT_EQ(row.impacts[0], 1);
+  const double v = h * std::sqrt(K / m), rate = std::sqrt((k + K) / m), impulse = 2.0 * m * v * k / (k + K);
+  const double fall = std::acos(0.0) * std::sqrt(m / K), contact = std::acos(-1.0) / rate;
+  EXPECT_NEAR(row.end_time / 0.01, 1.0, 1e-14);
+  EXPECT_NEAR(row.first_impact[0] / fall, 1.0, 1e-7);
+  EXPECT_NEAR(row.last_impact[0] / fall, 1.0, 1e-7);
+  EXPECT_NEAR(row.contact_time[0] / contact, 1.0, 1e-7);
+  EXPECT_NEAR(row.peak_force[0] / (k * v / rate), 1.0, 1e-7);
+  EXPECT_NEAR(row.normal_impulse[0] / impulse, 1.0, 1e-7);
+  EXPECT_NEAR(row.friction_impulse[0] / (-f * impulse), 1.0, 1e-7);
+  EXPECT_NEAR(row.impulse_x[0] / (-f * impulse), 1.0, 1e-7);
+  EXPECT_NEAR(row.impulse_y[0] / impulse, 1.0, 1e-7);
+  EXPECT_NEAR(row.end.vx / (u - f * impulse / m), 1.0, 1e-7);
+  const double swing = (0.01 - fall - contact) * std::sqrt(K / m);
+  EXPECT_NEAR(row.end.y / (1.8e-3 + h * std::sin(swing)), 1.0, 1e-6);
+  EXPECT_NEAR(row.end.vy / (v * std::cos(swing)), 1.0, 1e-6);
+}
+
+// A part that only turns, undamped, in SI units: phi(t) = phi0 cos(t sqrt(k_phi/J)).
+TEST(TrialRow, HasTheRateOfTheTiltInTheUnitsOfTheScene) {
+  const TrialRow row = run_trial_row(scene_of(R"(
+units: si
+part: {mass: 0.1, half_width: 2.0e-3, base_distance: 1.8e-3, inertia: 1.0e-6}
+slot: {clearance: 2.0e-4}
+gripper: {stiffness: {y: 4000, phi: 0.25}, anchor: {y: 1.0, phi: 0.0}}
+base: {stiffness: {y: 4.0e+7}}
+contacts: [edges]
+excitation: {force: 0, frequency: 10}
+initial: {x: 4.0e-4, y: 1.0, phi: 0.1}
+trial: {time_limit: 1.0e-3}
+)"),
+                                     0);
+  EXPECT_NEAR(row.end.phi, 0.1 * std::cos(0.5), 1e-12);
+  EXPECT_NEAR(row.end.omega, -0.1 * 500.0 * std::sin(0.5), 1e-9);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

@@ -484,5 +484,50 @@ TEST(Changes, restart_the_watch_for_settling) {
   EXPECT_GT(simulation.result().final_time, 0.9 * alone + 16.0 * 2.0 * 3.14159265358979323846 / 9.0);
 }
 
+// Jammed above the floor for want of force: pressed harder it goes on, and is inserted.
+TEST(Changes, of_the_press_free_what_has_jammed) {
+  const Scene scene = scene_of(R"(
+part: {half_width: 0.673, base_distance: 0.9015, inertia: 0.149}
+slot: {clearance: 0.09, depth: 0.5}
+gripper: {stiffness: {x: 0.0147, phi: 7.3}, damping: {x: 0.5, y: 0.5, phi: 1.3}, pressing_force: 0.1}
+base: {stiffness: {x: 3648.0, y: 7600.0}, damping: {x: 9.96, y: 20.75}}
+contacts: [edges, corners, walls]
+friction: {coefficient: 0.319}
+excitation: {amplitude: 1.0, frequency: 20.0}
+initial: {x: 0.2, y: 0.895, phi: 0.025}
+trial: {time_limit: 400.0, aligned_depth: 0.02}
+)");
+  SimulationOptions options;
+  options.until = 400.0;
+  Simulation simulation(scene, options);
+  while (simulation.advance() && simulation.result().outcome == Outcome::running) {
+  }
+  ASSERT_EQ(simulation.result().outcome, Outcome::jammed);
+  simulation.set_pressing_force(0.8);
+  EXPECT_EQ(simulation.result().outcome, Outcome::running);
+  while (simulation.advance() && simulation.result().outcome == Outcome::running) {
+  }
+  EXPECT_EQ(simulation.result().outcome, Outcome::inserted);
+}
+
+// A contact of a ball on its base lasts pi/sqrt(k + 1): longer than a period of the excitation that the scene has,
+// shorter than one of that which it gets.
+TEST(Changes, of_the_frequency_change_what_is_kept_contact) {
+  const double contact = 3.14159265358979323846 / 10.0;
+  for (const bool is_changed : {false, true}) {
+    Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "trial.time_limit=20",
+                                        "base={stiffness: {y: 99}}"});
+    scene.excitations[0].amplitude = 1e-9;
+    scene.excitations[0].frequency = 2.0 * 3.14159265358979323846 * 1.1 / contact;
+    Simulation simulation(scene);
+    std::vector<Excitation> slower = scene.excitations;
+    slower[0].frequency *= 0.9 / 1.1;
+    if (is_changed) simulation.set_excitations(slower);
+    while (simulation.advance()) {
+    }
+    EXPECT_EQ(simulation.result().mode, is_changed ? Mode::impact : Mode::mixed);
+  }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

@@ -203,5 +203,30 @@ TEST(Mode, bouncing_needs_more_force_than_the_press) {
     }
 }
 
+// Sliding to the right on a level face V is the velocity to the right: along the normal turned clockwise.
+TEST(FirstContact, has_the_slip_velocity) {
+  for (const double speed : {0.4, -0.4}) {
+    Scene scene = scene_of(test::ball, {"gripper={stiffness: {x: 0}, anchor: {y: 0.6}}"});
+    scene.initial.x = 0.6;
+    scene.initial.vx = speed;
+    const TrialResult result = run(scene);
+    ASSERT_TRUE(result.first_contact);
+    EXPECT_NEAR(result.first_contact->slip_velocity, speed, 1e-14);
+  }
+}
+
+// Each contact of a ball on an undamped base takes pi/sqrt(k + 1), whatever the height: kept is what lasts longer than
+// a period, be it by a tenth.
+TEST(Mode, of_contacts_nearly_as_long_as_a_period) {
+  constexpr double k = 99.0, contact = 3.14159265358979323846 / 10.0;
+  for (const double share : {0.9, 1.1}) {
+    Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2", "trial.time_limit=20",
+                                        "base={stiffness: {y: 99}}"});
+    scene.excitations[0].amplitude = 1e-9;
+    scene.excitations[0].frequency = 2.0 * 3.14159265358979323846 * share / contact;
+    EXPECT_EQ(run(scene).mode, share < 1.0 ? Mode::impact : Mode::mixed) << share << ' ' << k;
+  }
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

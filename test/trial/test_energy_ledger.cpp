@@ -191,5 +191,16 @@ TEST(EnergyLedger, of_a_normal_that_turns) {
   EXPECT_EQ(run(scene_of(test::plain, fixed)).energy->turning, 0.0);
 }
 
+// ... and that of a base which has not come back yet, when the part has left it and turns on: to the base's own damper.
+TEST(EnergyLedger, of_a_normal_that_turns_over_a_base_that_recovers) {
+  const TrialResult r =
+      run(scene_of(test::plain, {"base={stiffness: {x: 300, y: 900}, damping: {x: 90, y: 90}, recovery: true}",
+                                 "friction=null", "gripper.damping=null", "gripper.pressing_force=null",
+                                 "initial={x: 0.21, y: 1.0, phi: 0.3, omega: -2.0}", "gripper.anchor.y=0.6"}));
+  ASSERT_GT(test::total_impacts(r), 1);
+  EXPECT_GT(std::abs(r.energy->turning), 1e-4);
+  EXPECT_LT(r.energy->residual, 1e-11);
+}
+
 }  // namespace
 }  // namespace vibratory_alignment

@@ -216,6 +216,11 @@ TEST(Outcome, failed_says_why_and_where) {
   EXPECT_FALSE(result.failure.empty());
   EXPECT_GT(result.final_time, 0.0);
   EXPECT_FALSE(result.aligned_time);
+  // a ball keeps its x and phi, and falls from 1.0
+  const TrialResult ball = run(scene_of(test::ball, {"solver.step_limit=3"}));
+  ASSERT_EQ(ball.outcome, Outcome::failed);
+  EXPECT_NE(ball.failure.find(", x = 0.2, y = "), std::string::npos) << ball.failure;
+  EXPECT_NE(ball.failure.find(", phi = 0"), std::string::npos) << ball.failure;
 }
 
 TEST(Outcome, force_limit_only_marks_the_result) {

@@ -13,6 +13,7 @@
 #include "../support/random_scenes.h"
 #include "../support/runs.h"
 #include "../support/scenes.h"
+#include "mechanics/contact_frame.h"
 
 namespace vibratory_alignment {
 namespace {
@@ -283,6 +284,75 @@ TEST(Sampler, of_a_trial_that_fails_at_once_gives_nothing) {
   const Record r = record(scene, 0.01);
   EXPECT_EQ(r.result.outcome, Outcome::failed);
   EXPECT_TRUE(r.samples.empty());
+}
+
+// An impact of a ball on an undamped base, dropped from 0.3 above: the base gives it 2 v k/(k + 1) upward, and is
+// pressed in as far as the part is below it.
+TEST(Sampler, of_a_ball_on_its_base) {
+  constexpr double k = 1e3;
+  const Scene scene = scene_of(test::ball, {"gripper={anchor: {y: 0.9}}", "initial.y=1.2",
+                                            "base={stiffness: {y: 1.0e3}}", "trial.time_limit=3"});
+  double impulse = 0.0;
+  int touching = 0;
+  for (const Sample& s : record(scene, 0.01).samples) {
+    const ContactSample& c = s.contacts[0];
+    impulse += c.impulse_y;
+    EXPECT_EQ(c.impulse_x, 0.0);
+    if (!c.state.touching()) continue;
+    ++touching;
+    EXPECT_NEAR(c.depth, 0.9 - s.state.y, 1e-14);
+    EXPECT_NEAR(c.normal_force, k * c.depth, 1e-9);
+  }
+  EXPECT_GT(touching, 5);
+  EXPECT_NEAR(impulse, 2.0 * 0.3 * k / (k + 1.0), 1e-7);
+}
+
+// Impulses are the integrals of the forces along x and y, also where a segment crosses the tanh layer.
+TEST(Sampler, impulses_are_the_integrals_of_the_forces) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Scene scene = test::random_scene(seed);
+    scene.trial.time_limit = 5.0;
+    if (seed % 2 == 0) test::cross_layers(scene);
+    const System system = make_system(scene);
+    std::array<double, kSiteCount> x{}, y{};
+    test::run(scene, [&](const Segment& g) {
+      for (int i = 0; i < g.loaded_count; ++i) {
+        const Site at = g.loaded[static_cast<std::size_t>(i)].site;
+        const auto site = static_cast<std::size_t>(at);
+        const int n = 40;  // Simpson
+        for (int step = 0; step <= n; ++step) {
+          const double t = g.duration * step / n;
+          const ContactValues force = contact_at(g, i, t);
+          const ContactKinematics c = contact_kinematics(system, state_at(g, t), at, g.contacts[site].face);
+          const double weight = (step == 0 || step == n ? 1.0 : step % 2 == 1 ? 4.0 : 2.0) * g.duration / (3.0 * n);
+          x[site] += weight * (force.normal_force * c.normal.x + force.tangential_force * c.normal.y);
+          y[site] += weight * (force.normal_force * c.normal.y - force.tangential_force * c.normal.x);
+        }
+      }
+    });
+    std::array<double, kSiteCount> sum_x{}, sum_y{};
+    for (const Sample& s : record(scene, 0.3).samples)
+      for (std::size_t site = 0; site < kSiteCount; ++site) {
+        sum_x[site] += s.contacts[site].impulse_x;
+        sum_y[site] += s.contacts[site].impulse_y;
+      }
+    for (std::size_t site = 0; site < kSiteCount; ++site) {
+      EXPECT_NEAR(sum_x[site], x[site], 1e-6 * (1.0 + std::abs(x[site]))) << "seed " << seed << " site " << site;
+      EXPECT_NEAR(sum_y[site], y[site], 1e-6 * (1.0 + std::abs(y[site]))) << "seed " << seed << " site " << site;
+    }
+  }
+}
+
+// From the start, |x| = 0.2, to the clearance of the slot, 0.09.
+TEST(Sampler, progress_is_the_share_of_the_way_to_the_clearance) {
+  const Record r = record(scene_of(insertion), 0.02);
+  int there = 0;
+  for (const Sample& s : r.samples) {
+    const double share = (0.2 - s.misalignment) / (0.2 - 0.09);
+    EXPECT_NEAR(s.progress, std::min(1.0, std::max(0.0, share)), 1e-14) << s.time;
+    there += s.misalignment <= 0.09 ? 1 : 0;
+  }
+  EXPECT_GT(there, 10);
 }
 
 }  // namespace
