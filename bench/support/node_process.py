@@ -1,7 +1,9 @@
 """What the benches of the node share: a master of their own, the running node, and what /proc says of it."""
 
 import os
+import signal
 import socket
+import subprocess
 import sys
 import time
 
@@ -27,9 +29,23 @@ def use_own_master(folder):
     os.environ["ROS_HOME"] = os.environ["ROS_LOG_DIR"] = folder
 
 
-def launch_command(*arguments):
+def launch_log():
+    """What roslaunch says."""
+    return os.path.join(os.environ["ROS_LOG_DIR"], "roslaunch.txt")
+
+
+def launch_node(*arguments):
+    """roslaunch of the node, and of the master with it, as a process."""
     port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
-    return ["roslaunch", "-p", port, "vibratory_alignment", "trial.launch", "rviz:=false"] + list(arguments)
+    with open(launch_log(), "w") as log:
+        return subprocess.Popen(["roslaunch", "-p", port, "vibratory_alignment", "trial.launch", "rviz:=false"] +
+                                list(arguments), stdout=log, stderr=subprocess.STDOUT)
+
+
+def stop(process):
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        process.wait()
 
 
 def node_pid():
@@ -40,13 +56,17 @@ def node_pid():
     return xmlrpc.client.ServerProxy(uri).getPid("/bench")[2]
 
 
-def wait_for_node():
-    for _ in range(300):
+def wait_for_node(launch):
+    """Process of the node; where none comes up the bench ends with the last lines of roslaunch."""
+    deadline = time.monotonic() + 30.0
+    while launch.poll() is None and time.monotonic() < deadline:
         try:
             return node_pid()
         except Exception:  # the master or the node is not there yet
             time.sleep(0.1)
-    sys.exit("the node has not come up within 30 s")
+    with open(launch_log()) as log:
+        last = "".join(log.readlines()[-5:]).strip()
+    sys.exit("the node has not come up; roslaunch says:\n" + last)
 
 
 def cpu_seconds(stat):
