@@ -10,7 +10,7 @@ export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 unset PYTHONHOME PYTHONPATH LD_LIBRARY_PATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_MASTER_URI ROS_NAMESPACE
 if [ -n "${CONDA_PREFIX:-}" ]; then unset CC CXX CFLAGS CXXFLAGS CPPFLAGS LDFLAGS; fi
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)  # CMake keeps no symbolic link either
 noetic=/opt/ros/noetic
 # Where it is built, with which options of CMake; a script may say otherwise before it builds.
 build=$root/build
@@ -146,13 +146,14 @@ parallel_jobs() {
 
 # Configures and builds the given targets in $build, with the devel space in $devel, and enters that space. What is
 # installed goes to $build/.install: in a folder of the package that is not hidden roslaunch finds each launch file once
-# more, and starts none.
+# more, and starts none. Starting anew leaves what has been measured and searched: files .csv and .jsonl in $build.
 build_targets() {
   local cache="$build/CMakeCache.txt" options=("${cmake_options[@]}")
   say "Building in ${build#"$root"/}/ and ${devel#"$root"/}/ ($*; some minutes the first time)"
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
     note "${build#"$root"/}/ is that of another directory: starting anew"
-    rm -rf "$build" "$devel"
+    find "$build/" -mindepth 1 -maxdepth 1 ! -name '*.csv' ! -name '*.jsonl' -exec rm -rf {} +
+    rm -rf "$devel"
   fi
   if on_noetic; then source_setup "$noetic/setup.bash"; fi
   if [ -e "$root/build/cli11" ]; then options+=("-DCLI11_INCLUDE_DIR=$root/build/cli11"); fi
