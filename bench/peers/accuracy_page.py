@@ -13,7 +13,7 @@ import sys
 
 from table import POSITION, cell, keeping, read, seconds, table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 from drawing import SOLVER_STYLES, plt  # noqa: E402  (in scripts/)
 

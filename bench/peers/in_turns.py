@@ -9,7 +9,7 @@ import os
 import random
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "support"))
 from bench_tools import ROOT, markdown, output_of, program_of, replace_table, stamp  # noqa: E402
 from table import POSITION, keeping, read, seconds  # noqa: E402
