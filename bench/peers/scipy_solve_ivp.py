@@ -8,11 +8,14 @@ a small part of the shortest contact. Output: see report.h.
 Usage: scipy_solve_ivp.py LIBRARY [PROBLEM ...]
 """
 import ctypes
+import os
 import sys
 import time
 
-import numpy as np
-from scipy.integrate import solve_ivp
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts"))
+import interrupts  # noqa: E402, F401  (before what takes its time)
+import numpy as np  # noqa: E402
+from scipy.integrate import solve_ivp  # noqa: E402
 
 METHODS = ("RK45", "DOP853", "Radau", "LSODA")
 PROBLEMS = ("r1", "r1_eps_5e-04", "r1_eps_1e-06", "r1_stiff", "lasting", "lasting_overdamped", "wedge")
@@ -123,7 +126,12 @@ def report(name, problem, setting, run):
 
 
 def main():
-    peer = Peer(sys.argv[1])
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    try:
+        peer = Peer(sys.argv[1])
+    except OSError as error:
+        sys.exit(f"scipy_solve_ivp.py: {error}")
     for problem in [name for name in PROBLEMS if name in sys.argv[2:] or len(sys.argv) == 2]:
         for method in METHODS:
             for tolerance in tolerances(problem):
