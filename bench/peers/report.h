@@ -20,7 +20,7 @@ struct Outcome {
   long evaluations = 0, steps = 0, events = 0;
 };
 
-// Runs `integrate` again and again, until 0.3 s of processor time are spent and 5 repetitions are made (after 3 s:
+// Runs `integrate` again and again, until 0.15 s of processor time are spent and 5 repetitions are made (after 3 s:
 // fewer). Returns the least time in seconds, nan for a run that fails.
 double report(const std::string& peer, const std::string& problem, double setting,
               const std::function<Outcome()>& integrate);
