@@ -11,15 +11,15 @@ import io
 import os
 import sys
 
-from table import POSITION, cell, keeping, read, seconds, table
-
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from drawing import SOLVER_STYLES, plt  # noqa: E402  (in scripts/)
+sys.path += [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "bench", "support")]
+import interrupts  # noqa: E402, F401  (before what takes its time)
+from bench_tools import with_table, write_files  # noqa: E402
+from drawing import SOLVER_STYLES, plt  # noqa: E402
+from table import POSITION, cell, keeping, read, seconds, table  # noqa: E402
 
 PAGE = os.path.join(ROOT, "docs", "accuracy.md")
 FIGURE = os.path.join(ROOT, "docs", "images", "accuracy.svg")
-MARK = "<!-- results -->"
 ERRORS = (1e-3, 1e-6, 1e-9)
 OWN = "own_"
 # What is shown, the problem of the own solvers, and the one of the peers: for dry friction their tanh approximation.
@@ -57,6 +57,20 @@ def series_of(runs, own_problem, peer_problem):
         if not name.startswith(OWN) and name not in found:
             found[name] = (series, peer_problem)
     return found
+
+
+def what_is_missing(runs, answers):
+    """Words for a problem of SHOWN that has no answer, or no run of an own solver or of a peer; None where all is there."""
+    for _, own_problem, peer_problem in SHOWN:
+        owns = {name.startswith(OWN) for name in series_of(runs, own_problem, peer_problem)}
+        if True not in owns:
+            return f"no run of an own solver on {own_problem}"
+        if False not in owns:
+            return f"no run of a peer on {peer_problem}"
+        for problem in (own_problem, peer_problem):
+            if problem not in answers:
+                return f"no answer to {problem} (peer `reference`)"
+    return None
 
 
 def best_of(found, answers, error, own):
@@ -97,6 +111,8 @@ def print_all(runs, answers):
 def style_of(name, others):
     """How a tool is drawn; `others`: those without a colour of their own."""
     if name.startswith(OWN):
+        if name[len(OWN):] not in SOLVER_STYLES:
+            sys.exit(f"{name}: has no colour and mark in SOLVER_STYLES of scripts/drawing.py")
         colour, mark = SOLVER_STYLES[name[len(OWN):]]
         style = {"color": colour, "marker": mark, "markersize": 4.5, "linewidth": 1.6, "zorder": 4}
         # `auto` often is `event` or `implicit`: both stay to be seen
@@ -118,7 +134,8 @@ def kept_points(series, answer):
     return [(error, time) for error, time in reversed(points) if error < 1.0]
 
 
-def draw(runs, answers):
+def drawing(runs, answers):
+    """The figure, as the bytes of its file."""
     shown = [entry for entry in SHOWN if entry[1] in ("r1", "r1_dry", "r1_stiff", "lasting_overdamped")]
     figure, panels = plt.subplots(2, 2, figsize=(11.0, 8.5), sharex=True)
     names = sorted({name for entry in shown for name in series_of(runs, *entry[1:])}, key=lambda n: (not n.startswith(OWN), n))
@@ -139,22 +156,25 @@ def draw(runs, answers):
     figure.legend([lines[name] for name in order], [name.replace(OWN, "own: ") for name in order],
                   loc="lower center", ncol=6, fontsize=8, frameon=False)
     figure.tight_layout(rect=(0.0, 0.07, 1.0, 1.0))
-    figure.savefig(FIGURE, metadata={"Date": None})
+    picture = io.BytesIO()
+    figure.savefig(picture, format="svg", metadata={"Date": None})
+    return picture.getvalue()
 
 
 def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
     runs, answers = read(sys.argv[1])
+    missing = what_is_missing(runs, answers)
+    if missing:
+        sys.exit(f"{sys.argv[1]}: holds {missing}, which docs/accuracy.md shows")
     text = io.StringIO()
     with contextlib.redirect_stdout(text):
         print(f"Made on {datetime.date.today()}, {processor()}.\n")
         print_ratios(runs, answers)
         print("![Error against processor time](images/accuracy.svg)\n")
         print_all(runs, answers)
-    with open(PAGE) as file:
-        head, _, tail = file.read().split(MARK)
-    with open(PAGE, "w") as file:
-        file.write(f"{head}{MARK}\n{text.getvalue()}{MARK}{tail}")
-    draw(runs, answers)
+    write_files({PAGE: with_table(PAGE, "results", text.getvalue()), FIGURE: drawing(runs, answers)})
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """R1 by `event` and by odeint in turns, in random order, for the table of docs/accuracy.md between <!-- turns -->.
 
-The clock of a machine may change between two speeds within minutes: of programs that take turns of a second both meet
+The clock of a machine may change between two speeds within minutes: of programs that take turns of seconds both meet
 either. Settings are those that keep the errors in the lines of `run`, times the second least of all turns.
-Usage: in_turns.py BUILD_DIRECTORY FILE.csv [TURNS]     (24 turns unless given: two minutes; targets peers and cost)
+Usage: in_turns.py BUILD_DIRECTORY FILE.csv [TURNS]
+24 turns unless given: two to three minutes. Needs the targets peers and cost.
 """
 import os
 import random
@@ -11,7 +12,7 @@ import sys
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "support"))
-from bench_tools import ROOT, markdown, output_of, program_of, replace_table, stamp  # noqa: E402
+from bench_tools import ROOT, markdown, output_of, program_of, replace_table, require_program, run, stamp  # noqa: E402
 from table import POSITION, keeping, read, seconds  # noqa: E402
 
 ERRORS = (1e-6, 1e-9)
@@ -20,32 +21,42 @@ PROBLEMS = (("R1, tanh friction", "r1", "r1"), ("R1, dry friction", "r1_dry", "r
 
 
 def setting(runs, answers, problem, tool, error):
-    run = keeping(runs[problem][tool], answers[problem], POSITION, error)
-    if run is None:
-        sys.exit("%s does not reach %g on %s" % (tool, error, problem))
-    return run.setting
+    if problem not in answers:
+        sys.exit("%s: holds no answer to %s (peer `reference`)" % (sys.argv[2], problem))
+    quickest = keeping(runs[problem][tool], answers[problem], POSITION, error)
+    if quickest is None:
+        sys.exit("%s: holds no run of %s that keeps %g on %s" % (sys.argv[2], tool, error, problem))
+    return quickest.setting
 
 
-def own_times(build, cells):
+def own_times(cost, cells):
     """Pairs of (problem, tolerance) and the CPU time of a trial, s, in random order."""
-    cost = program_of(build, "cost")
     scene = os.path.join(ROOT, "config", "scenes", "%s.yaml")
     for problem, tolerance in random.sample(cells, len(cells)):
         line = output_of([cost, "time", scene % problem, "solver.tolerance=%r" % tolerance])
         yield (problem, tolerance), 1e-6 * float(line.split()[0])
 
 
-def peer_times(build, problem):
+def peer_times(peer, problem):
     """Likewise of the peer, of all its tolerances."""
-    for line in output_of([os.path.join(build, "peers", "peer_" + PEER), problem]).splitlines():
+    for line in output_of([peer, problem]).splitlines():
         fields = line.split(",")
         yield (problem, float(fields[2])), float(fields[12])
+
+
+def turns_of(word):
+    """Their number; at least two, as the second least time of them counts."""
+    if not word.isdecimal() or int(word) < 2:
+        sys.exit("TURNS %s: must be a whole number, 2 at the least" % word)
+    return int(word)
 
 
 def main():
     if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    build, turns = sys.argv[1], int(sys.argv[3]) if len(sys.argv) == 4 else 24
+    build, turns = sys.argv[1], turns_of(sys.argv[3]) if len(sys.argv) == 4 else 24
+    cost = program_of(build, "cost")
+    peer_program = require_program(os.path.join(build, "peers", "peer_" + PEER), build, "peers")
     runs, answers = read(sys.argv[2])
     rows = [(name, error, (own, setting(runs, answers, own, OWN, error)),
              (peer, setting(runs, answers, peer, PEER, error)))
@@ -53,10 +64,10 @@ def main():
     own_cells, problems = [row[2] for row in rows], sorted({row[3][0] for row in rows})
     times = {}
     for _ in range(turns):
-        for key, time in own_times(build, own_cells):
+        for key, time in own_times(cost, own_cells):
             times.setdefault((OWN,) + key, []).append(time)
         for problem in problems:
-            for key, time in peer_times(build, problem):
+            for key, time in peer_times(peer_program, problem):
                 times.setdefault((PEER,) + key, []).append(time)
     lines = []
     for name, error, own, peer in rows:
@@ -67,4 +78,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

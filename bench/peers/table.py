@@ -6,11 +6,13 @@ those settings' least times (docs/accuracy.md says why not medians). Where the l
 median the clock has jumped, and the median counts. Position errors are the largest of |x|, |y|, |phi| at the end.
 Usage: table.py FILE.csv
 """
-import csv
 import math
+import signal
 import sys
 from collections import defaultdict
 
+HEAD = "peer,problem,setting,x,y,phi,vx,vy,omega,rhs,steps,events,cpu_min_s,cpu_median_s\n"
+COLUMNS = HEAD.strip().split(",")
 TARGETS = (1e-3, 1e-6, 1e-9)
 LEAST_OF_MEDIAN = 1 / 3
 DRY = "r1_dry"
@@ -32,17 +34,48 @@ class Run:
         return math.inf if any(map(math.isnan, difference)) else max(difference)
 
 
+def run_of(line):
+    """Raises ValueError where the line is half written, or none of a run."""
+    fields = line.strip().split(",")
+    if not line.endswith("\n") or len(fields) != len(COLUMNS):
+        raise ValueError(line)
+    return Run(dict(zip(COLUMNS, fields)))
+
+
+def lines_of(path):
+    try:
+        with open(path, errors="replace") as file:
+            return file.readlines()
+    except OSError as error:
+        sys.exit(f"{path}: {error.strerror}")
+
+
+def runs_in(path):
+    """The runs of all lines; ends with a message at a line that is none, and where there is no run."""
+    number, found = 1, []
+    try:
+        head, *lines = lines_of(path) or [""]
+        if head != HEAD:
+            raise ValueError(head)
+        for number, line in enumerate(lines, 2):
+            found.append(run_of(line))
+    except ValueError:
+        sys.exit(f"{path}: line {number}: is no line of bench/peers/run")
+    if all(run.peer == "reference" for run in found):
+        sys.exit(f"{path}: holds no run")
+    return found
+
+
 def read(path):
     """runs[problem][peer], loosest setting first; the answers of the peer `reference` apart. Of several turns of one
     setting the fastest."""
     fastest, answers = {}, {}
-    with open(path, newline="") as file:
-        for run in map(Run, csv.DictReader(file)):
-            key = (run.problem, run.peer, run.setting)
-            if run.peer == "reference":
-                answers[run.problem] = run.state
-            elif key not in fastest or run.time_s < fastest[key].time_s:
-                fastest[key] = run
+    for run in runs_in(path):
+        key = (run.problem, run.peer, run.setting)
+        if run.peer == "reference":
+            answers[run.problem] = run.state
+        elif key not in fastest or run.time_s < fastest[key].time_s:
+            fastest[key] = run
     runs = defaultdict(lambda: defaultdict(list))
     for (problem, peer, _), run in fastest.items():
         runs[problem][peer].append(run)
@@ -142,6 +175,10 @@ def print_dry_limit(runs, answers):
 
 
 def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as with `| head`
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     runs, answers = read(sys.argv[1])
     print_agreement(runs, answers)
     for problem, peers in runs.items():
