@@ -2,8 +2,10 @@
 
 import glob
 import os
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 from align_test_case import SOURCE_ROOT, AlignTestCase
@@ -44,14 +46,44 @@ class HardScenesTest(AlignTestCase):
         return dict(zip(rows[0], rows[1]))
 
     def test_table_takes_no_crash_for_a_run_that_lasts_too_long(self):
-        crash = self.write("crash", "#!/bin/sh\nkill -SEGV $$\n")
-        os.chmod(crash, 0o755)
+        crash = self.program("crash", "kill -SEGV $$")
         script = os.path.join(SOURCE_ROOT, "scripts", "hard_cases")
         process = subprocess.run([sys.executable, script, "--align", crash, "--only", "coulomb_oscillator"],
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
         self.assertNotEqual(process.returncode, 0)
         self.assertNotIn("stopped after", process.stdout)
         self.assertIn("ended by signal 11", process.stderr)
+
+    def program(self, name, text):
+        path = self.write(name, "#!/bin/sh\n" + text + "\n")
+        os.chmod(path, 0o755)
+        return path
+
+    def test_table_refuses_what_it_does_not_know(self):
+        script = os.path.join(SOURCE_ROOT, "scripts", "hard_cases")
+        for align, name, words in ((self.align_path, "chatter,nonsense", "no scene nonsense; there are"),
+                                   (self.path("none"), "chatter", "there is no such program"),
+                                   (self.program("mute", ""), "chatter", "prints no report")):
+            process = subprocess.run([sys.executable, script, "--align", align, "--only", name], stdout=subprocess.PIPE,
+                                     stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
+            self.assertEqual((process.returncode, process.stdout), (1, ""), process.stderr)
+            self.assertIn(words, process.stderr)
+            self.assertNotIn("Traceback", process.stderr)
+
+    def test_table_can_be_interrupted(self):
+        begun = self.path("begun")
+        slow = self.program("slow", "touch %s\nexec sleep 600" % begun)
+        process = subprocess.Popen(
+            [sys.executable, os.path.join(SOURCE_ROOT, "scripts", "hard_cases"), "--align", slow, "--print"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # of a job in the background it is ignored
+        self.addCleanup(process.kill)
+        while process.poll() is None and not os.path.exists(begun):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT, messages)
+        self.assertNotIn("Traceback", messages)
 
     # closed form: the exact solvers pass, the creep of rk4 does not
     def test_table_tells_right_from_wrong(self):
