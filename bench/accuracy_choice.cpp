@@ -16,6 +16,7 @@
 #include "../test/support/random_scenes.h"
 #include "../test/support/runs.h"
 #include "model/solver_choice.h"
+#include "support/run_bench.h"
 
 namespace va = vibratory_alignment;
 
@@ -40,14 +41,7 @@ struct Tally {
 
 double percent(int part, int all) { return all == 0 ? 0.0 : 100.0 * part / all; }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int count = argc == 2 ? std::atoi(argv[1]) : 0;
-  if (count <= 0) {
-    std::fprintf(stderr, "usage: accuracy_choice COUNT   (of scenes, > 0)\n");
-    return 2;
-  }
+void print_choices(int count) {
   std::array<Tally, kAccuracies.size()> tallies;
   std::string misses;
   int scenes = 0, failed = 0;
@@ -93,5 +87,15 @@ int main(int argc, char** argv) {
   }
   std::printf("\n| missed by seed | E | error / E | reference known to | impacts |\n|---|---|---|---|---|\n%s",
               misses.c_str());
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc == 2 ? std::atoi(argv[1]) : 0;
+  if (count <= 0) {
+    std::fprintf(stderr, "usage: accuracy_choice COUNT   (of scenes, > 0)\n");
+    return 2;
+  }
+  return va::run_bench("accuracy_choice", [&] { print_choices(count); });
 }

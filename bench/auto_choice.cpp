@@ -24,6 +24,7 @@
 
 #include "model/scene_loader.h"
 #include "random_scene.h"
+#include "support/run_bench.h"
 #include "trial/simulation.h"
 
 namespace va = vibratory_alignment;
@@ -305,14 +306,7 @@ void report_random_scenes(double tolerance) {
   longer.print("of these longer than 0.5 ms");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const double tolerance = argc > 1 ? std::atof(argv[1]) : 0.0;
-  if (!(tolerance > 0.0 && tolerance <= 0.1)) {
-    std::fprintf(stderr, "usage: auto_choice TOLERANCE SCENE_FILE ...   (tolerance > 0 and <= 0.1)\n");
-    return 2;
-  }
+void print_all(double tolerance, const std::vector<va::Scene>& scenes) {
   std::printf("CPU time of a trial in us (steps), tolerance %g; ratio: auto to the better of the others\n\n",
               tolerance);
   std::printf("| scene | event | implicit | auto | ratio | of the steps alone |\n|---|---|---|---|---|---|\n");
@@ -322,15 +316,26 @@ int main(int argc, char** argv) {
     made.add(ratios);
     if (kind != nullptr) kind->add(ratios);
   };
-  for (int i = 2; i < argc; ++i) {
-    const va::Scene scene = va::load_scene_file(argv[i]);
-    add(scene.name, scene, &files);
-  }
+  for (const va::Scene& scene : scenes) add(scene.name, scene, &files);
   for (const Case& c : built_in_cases()) add(c.label, c.scene, nullptr);
   std::printf("\n");
   made.print("scenes");
   files.print("of these, of the files");
   std::printf("\n| random scene | event | implicit | auto | ratio | of the steps alone |\n|---|---|---|---|---|---|\n");
   report_random_scenes(tolerance);
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const double tolerance = argc > 1 ? std::atof(argv[1]) : 0.0;
+  if (!(tolerance > 0.0 && tolerance <= 0.1)) {
+    std::fprintf(stderr, "usage: auto_choice TOLERANCE SCENE_FILE ...   (tolerance > 0 and <= 0.1)\n");
+    return 2;
+  }
+  return va::run_bench("auto_choice", [&] {
+    std::vector<va::Scene> scenes;
+    for (int i = 2; i < argc; ++i) scenes.push_back(va::load_scene_file(argv[i]));
+    print_all(tolerance, scenes);
+  });
 }

@@ -10,6 +10,7 @@
 
 #include "../test/reference/reference_cases.h"
 #include "model/scene_loader.h"
+#include "support/run_bench.h"
 #include "trial/make_solver.h"
 #include "trial/simulation.h"
 
@@ -114,15 +115,12 @@ void print_energy(int count, char** paths) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return va::run_bench("verification", [&] {
     std::printf(
-        "## Converged answers\n\nLargest error of the end state (position and velocity) at each `solver.tolerance`.\n\n");
+        "## Converged answers\n\nLargest error of the end state (position and velocity) at each "
+        "`solver.tolerance`.\n\n");
     print_references();
     std::printf("\n## Energy\n\nResidual of the ledger relative to the energy exchanged, dimensionless times.\n\n");
     print_energy(argc - 1, argv + 1);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "verification: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/run_bench.h"
 #include "model/scene_loader.h"
 #include "trial/simulation.h"
 
@@ -74,9 +75,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: cost run | time | rate SECONDS   SCENE_FILE [KEY=VALUE ...]\n");
     return 2;
   }
-  const va::Scene scene = va::load_scene_file(argv[file], std::vector<std::string>(argv + file + 1, argv + argc));
-  if (task == "run") print(run(scene));
-  if (task == "time") print_time(scene);
-  if (task == "rate") print_rate(scene, std::atof(argv[2]));
-  return 0;
+  return va::run_bench("cost", [&] {
+    const va::Scene scene = va::load_scene_file(argv[file], std::vector<std::string>(argv + file + 1, argv + argc));
+    if (task == "run") print(run(scene));
+    if (task == "time") print_time(scene);
+    if (task == "rate") print_rate(scene, std::atof(argv[2]));
+  });
 }

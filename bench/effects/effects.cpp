@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/run_bench.h"
 #include "model/scene_loader.h"
 #include "model/setting.h"
 #include "trial/simulation.h"
@@ -88,14 +89,15 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::size_t row = argc == 4 ? static_cast<std::size_t>(std::atoi(argv[3])) : kAll - 1;
-  const std::vector<Row> rows = read_chain(argv[1], row + 1);
-  if (task == "names") {
-    for (const Row& row : rows) std::printf("%s\n", row.effect.c_str());
-  } else if (task == "time") {
-    print_times(rows);
-  } else {
-    const Run one = run(rows.at(row));
-    std::printf("%ld %ld\n", one.impacts, one.result.counts.steps);
-  }
-  return 0;
+  return va::run_bench("effects", [&] {
+    const std::vector<Row> rows = read_chain(argv[1], row + 1);
+    if (task == "names") {
+      for (const Row& row : rows) std::printf("%s\n", row.effect.c_str());
+    } else if (task == "time") {
+      print_times(rows);
+    } else {
+      const Run one = run(rows.at(row));
+      std::printf("%ld %ld\n", one.impacts, one.result.counts.steps);
+    }
+  });
 }
