@@ -54,7 +54,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("table", help="CSV file of `align accuracy`")
     parser.add_argument("picture", help="file to write")
-    parser.add_argument("--format", default="png", help="png, svg or pdf")
+    parser.add_argument("--format", default="png", choices=("png", "svg", "pdf"))
     parser.add_argument("--title", default="", help="title of the figure")
     arguments = parser.parse_args()
     try:

@@ -46,9 +46,27 @@ def symbol(formula):
 
 
 def read_rows(path):
-    """Rows of a CSV file as dictionaries of numbers; what is empty is NaN."""
+    """Rows of a CSV file as dictionaries of numbers; what is empty is NaN. Raises ValueError where there is none."""
+    rows = []
     with open(path, newline="") as file:
-        return [{key: float(text or "nan") for key, text in row.items()} for row in csv.DictReader(file)]
+        reader = csv.DictReader(file, restval="missing")
+        for row in reader:
+            try:
+                rows.append({key: float(text or "nan") for key, text in row.items()})
+            except (TypeError, ValueError):
+                raise ValueError("%s: line %d: must be %d numbers"
+                                 % (path.name, reader.line_num, len(reader.fieldnames)))
+    if not rows:
+        raise ValueError("%s: holds no row" % path.name)
+    return rows
+
+
+def read_figures(path):
+    """What figures.json says of each figure. Raises ValueError where it says something else."""
+    figures = json.loads(path.read_text())
+    if not isinstance(figures, list) or not all(isinstance(figure, dict) for figure in figures):
+        raise ValueError("%s: must be a list of figures" % path.name)
+    return figures
 
 
 def draw_trial(figure, rows):
@@ -169,7 +187,7 @@ def main():
     folder = parser.parse_args().folder
     set_style()
     try:
-        for figure in json.loads((folder / "figures.json").read_text()):
+        for figure in read_figures(folder / "figures.json"):
             sheet = DRAW[figure["kind"]](figure, read_rows(folder / (figure["name"] + ".csv")))
             set_title(sheet, figure["title"])
             save(sheet, folder / (figure["name"] + ".svg"), metadata={"Date": None})

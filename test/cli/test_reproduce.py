@@ -270,6 +270,21 @@ print("goes on")
         self.assertIn("File too large", process.stderr)
         self.assertEqual(self.contents(), before)
 
+    def test_what_cannot_be_drawn_is_named(self):
+        self.reproduce("--no-pictures")
+        script = os.path.join(SOURCE_ROOT, "scripts", "plot_figures.py")
+        with open(self.path("out/motion.csv")) as file:
+            head, first = file.readline(), file.readline()
+        for name, text, words in (("motion.csv", "", "motion.csv: holds no row"),
+                                  ("motion.csv", head + first.strip() + ",1\n", "motion.csv: line 2: must be"),
+                                  ("motion.csv", head + first.split(",")[0], "motion.csv: line 2: must be"),
+                                  ("figures.json", "[1]", "figures.json: must be a list of figures")):
+            self.write("out/" + name, text)
+            process = subprocess.run([sys.executable, script, "out"], capture_output=True, text=True, timeout=120,
+                                     cwd=self.directory)
+            self.assertEqual(process.returncode, 1)
+            self.assertIn("plot_figures.py: out: " + words, process.stderr)
+
     def test_says_before_it_runs_what_cannot_be_written(self):
         for name in ("ledger.json", "curve.csv", "motion.png", "figures.json"):
             os.makedirs(self.path("out/" + name))
