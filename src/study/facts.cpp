@@ -19,7 +19,8 @@ double shortfall(const Reading& reading, const Bound& bound) {
 
 Measure marks_of(const Figure& figure) {
   Measure marks = figure.measure;
-  marks.of = figure.mark;
+  // 0 also where the mark is none, which alone is not equal to itself
+  marks.of = "((" + figure.mark + ") == (" + figure.mark + ")) && ((" + figure.mark + ") != 0)";
   marks.curves.point = PointStatistic::mean;
   marks.curves.share = 0.0;
   return marks;

@@ -85,7 +85,7 @@ TEST(Judge, names_the_fact_in_its_faults) {
   }
 }
 
-// Three of the four trials at the one point hold.
+// Three of the four trials at the one point hold; of those whose mark is a number two, and one of these is not 0.
 TEST(MarksOf, are_the_shares_of_trials_for_which_the_mark_holds) {
   Figure figure;
   figure.kind = Figure::Kind::curves;
@@ -93,13 +93,16 @@ TEST(MarksOf, are_the_shares_of_trials_for_which_the_mark_holds) {
   figure.measure.table = {"study", false};
   figure.measure.of = "a";
   figure.measure.curves.along = "x";
-  figure.mark = "a > 1";
-  const Tables tables = {{{"study", false}, {{"sample", "x", "a"}, {{0, 1, 2, 3}, {7, 7, 7, 7}, {1, 2, 3, 4}}}}};
-  const std::vector<Curve> marks = curves_of(marks_of(figure), tables);
-  ASSERT_EQ(marks.size(), 1U);
-  ASSERT_EQ(marks[0].points.size(), 1U);
-  EXPECT_EQ(marks[0].points[0].at, 7.0);
-  EXPECT_EQ(marks[0].points[0].value, 0.75);
+  const Tables tables = {
+      {{"study", false}, {{"sample", "x", "a", "b"}, {{0, 1, 2, 3}, {7, 7, 7, 7}, {1, 2, 3, 4}, {5, NAN, 0, NAN}}}}};
+  for (const auto& [mark, share] : {std::pair{"a > 1", 0.75}, {"b", 0.25}}) {
+    figure.mark = mark;
+    const std::vector<Curve> marks = curves_of(marks_of(figure), tables);
+    ASSERT_EQ(marks.size(), 1U);
+    ASSERT_EQ(marks[0].points.size(), 1U);
+    EXPECT_EQ(marks[0].points[0].at, 7.0);
+    EXPECT_EQ(marks[0].points[0].value, share);
+  }
 }
 
 TEST(TablesOf, names_each_once) {
