@@ -84,10 +84,7 @@ void FixedStepSolver::take_events_of_start() {
     const Event& event = segment_.events[static_cast<std::size_t>(i)];
     if (event.kind == EventKind::touch && starts_on(event)) touches[static_cast<std::size_t>(count++)] = event;
   }
-  const bool is_aligned = is_below(system_, start.placed, start.contacts, system_.aligned_depth, true);
-  const bool is_inserted =
-      awaits_inserted_ && is_below(system_, start.placed, start.contacts, system_.inserted_depth, false);
-  if (count == 0 && !is_aligned && !is_inserted) return;
+  if (count == 0 && !aligns(start) && !inserts(start)) return;
 
   segment_.duration = 0.0;
   segment_.contacts = start.contacts;
@@ -104,8 +101,20 @@ void FixedStepSolver::take_events_of_start() {
     if (end.contacts[i].phase == Phase::loaded) end.contacts[i].slip = slip_at(i, true);
     add_event(segment_, EventKind::touch, touch.site, touch.face);
   }
-  if (is_aligned) add_event(segment_, EventKind::aligned, Site::b1);
-  if (is_inserted) add_event(segment_, EventKind::inserted, Site::b1);
+  add_outcomes(start);
+}
+
+bool FixedStepSolver::aligns(const ContactBook& at) const {
+  return awaits_aligned_ && is_below(system_, at.placed, at.contacts, system_.aligned_depth, true);
+}
+
+bool FixedStepSolver::inserts(const ContactBook& at) const {
+  return awaits_inserted_ && is_below(system_, at.placed, at.contacts, system_.inserted_depth, false);
+}
+
+void FixedStepSolver::add_outcomes(const ContactBook& at) {
+  if (aligns(at)) add_event(segment_, EventKind::aligned, Site::b1);
+  if (inserts(at)) add_event(segment_, EventKind::inserted, Site::b1);
 }
 
 bool FixedStepSolver::starts_on(const Event& touch) const {
@@ -176,10 +185,7 @@ void FixedStepSolver::book_end(bool whole) {
       add_event(segment_, EventKind::slip_reversal, site);
   }
   if (drives_.has_kink(segment_.duration)) add_event(segment_, EventKind::drive_kink, Site::a1);
-  if (awaits_aligned_ && is_below(system_, end.placed, end.contacts, system_.aligned_depth, true))
-    add_event(segment_, EventKind::aligned, Site::b1);
-  if (awaits_inserted_ && is_below(system_, end.placed, end.contacts, system_.inserted_depth, false))
-    add_event(segment_, EventKind::inserted, Site::b1);
+  add_outcomes(end);
 }
 
 void FixedStepSolver::cut(double duration) {

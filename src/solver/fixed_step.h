@@ -34,6 +34,10 @@ class FixedStepSolver final : public Solver {
   void rest();
   void take_events_of_start();
   bool starts_on(const Event& touch) const;
+  /// Outcomes that are awaited and hold at the book's instant.
+  bool aligns(const ContactBook& at) const;
+  bool inserts(const ContactBook& at) const;
+  void add_outcomes(const ContactBook& at);
   /// Contacts, events and outcomes at the segment's end.
   void book_end(bool whole);
   void set_direction();

@@ -31,7 +31,8 @@ struct FactSettings {
 /// How much to run. Both thin studies out for a quick look; 1: as their files say.
 struct Thinning {
   std::size_t samples = 1;  ///< the samples of every point are divided by this (at least 2 are left)
-  std::size_t grid = 1;     ///< of the values of a range only every so many-th is kept, and the last; lists stay, and ranges beside one
+  /// Of the values of a range only every so many-th is kept, and the last; lists stay, and ranges beside one.
+  std::size_t grid = 1;
 };
 
 Study thinned(const Study& study, const Thinning& thinning);
