@@ -5,6 +5,7 @@ A client of the action ~align of aligner_node, as a sequencer of one's own would
   ~aligner  name of the aligner (default: aligner)
   ~parts    list of maps: `part`, the name for the report, and any fields of the action's goal (action/Align.action)
   ~patience wall time for one part [s] (default: 120)
+  ~stay     true: does not end with the last part, so that the report can be had later (default: false)
 Topic ~report (std_msgs/String, latched): a list of results as YAML, when the last part is done.
 The fields of all parts are checked before the first one is aligned; what they name, like a scene, by the aligner.
 Interrupted, it cancels the goal that is under way.
@@ -146,7 +147,7 @@ def main():
         else:
             rospy.logerr('%(part)s: %(state)s: %(text)s', report)
     publisher.publish(yaml.safe_dump(reports))
-    wait(lambda: False, 1.0)  # for those who want the report
+    wait(lambda: False, math.inf if rospy.get_param('~stay', False) else 1.0)  # for those who want the report
     return 0 if all(report['state'] == 'succeeded' for report in reports) else 1
 
 

@@ -28,7 +28,7 @@ class Cell(AlignerTestCase):
     def test_three_parts_in_sequence(self):
         self.assertTrue(program('cell.py'))
         reports = Listener('/cell/report', String)
-        self.assertTrue(reports.wait_for(1, 50.0), 'no report')
+        self.assertTrue(reports.wait_for(1, 40.0), 'no report')
         report = yaml.safe_load(reports.messages[0].data)
         self.assertEqual([part['part'] for part in report], list(SETTINGS))
         for part in report:
@@ -43,6 +43,14 @@ class Cell(AlignerTestCase):
             self.assertAlmostEqual(part['aligned_ms'], 1e3 * expected['duration'] * time_unit, places=9)
             self.assertAlmostEqual(part['time_ms'], 1e3 * expected['final']['t'] * time_unit, places=9)
             self.assertAlmostEqual(part['peak_force'], max(expected['peak_force'].values()) * force_unit, places=9)
+
+    def test_while_the_cell_stays_its_report_can_be_had(self):
+        self.assertTrue(Listener('/cell/report', String).wait_for(1, 40.0), 'no report')
+        time.sleep(1.5)  # as long as it would wait if it did not stay, and longer
+        echo = subprocess.run(['rostopic', 'echo', '-n', '1', '/cell/report'], stdout=subprocess.PIPE,
+                              universal_newlines=True, timeout=20.0)
+        for part in SETTINGS:
+            self.assertIn(part, echo.stdout)
 
     def test_faults_of_all_parts_are_told_before_the_first_is_aligned(self):
         rospy.set_param('/faulty/parts', [{'part': 'good', 'scene': 'fig2'},
