@@ -49,7 +49,7 @@ config/paper/facts.yaml lists the facts, how each is measured and the figures; c
 they are measured on (docs/studies.md, docs/paper.md). The ledger shows for each measure its value, its bound and, for
 studies with samples, the range of 5 to 95 % of its values when the samples are drawn anew.
 
-Files in the folder: ledger.md, ledger.json; of each figure its data (CSV) and pictures (SVG, PNG).
+Files in the folder: ledger.md, ledger.json; figures.json; of each figure its data (CSV) and pictures (SVG, PNG).
 Exit status: 0 it ran; 1 it failed while running, or --check found a fact missed that is expected to be met;
 2 bad usage, facts file, study or scene.)";
 

@@ -193,7 +193,7 @@ std::function<int()> set_up_sweep(CLI::App& app) {
   app.add_option("--csv", options->csv, "Write one row a trial to this file")->check(file_name())->type_name("FILE");
   app.add_flag("--resume", options->resume,
                "Go on with the file of a sweep that ended early, or begin it if\nthere is none; nothing is run twice");
-  app.add_option("--shard", options->shard, "Run part I of N of the trials alone: I, I + N, I + 2N, ...")
+  app.add_option("--shard", options->shard, "Run part I of N of the trials alone, counted from 0: I - 1, I - 1 + N,\nI - 1 + 2N, ...")
       ->check(CLI::Validator(check_shard, ""))
       ->type_name("I/N");
   add_set_option(app, options->settings,

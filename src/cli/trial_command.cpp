@@ -45,8 +45,8 @@ constexpr char kTrialFooter[] = R"(Examples:
 
 Units:
   Options, results and files are in the scene's own units. A scene with `units: si` has s, m, m/s, rad, N. Other
-  scenes have the paper's: time 1/p where p^2 = K_Y/M, length F1/K_Y, force F1 (F1 is the amplitude of the
-  excitation, K_Y the axial stiffness of the gripper, M the mass of the part). Angles are in rad.
+  scenes have the paper's: time 1/p where p^2 = K_Y/M, length F1/K_Y, force F1 (F1 is the unit of force,
+  scales.force, K_Y the axial stiffness of the gripper, M the mass of the part). Angles are in rad.
 
 CSV columns:
   t                        time

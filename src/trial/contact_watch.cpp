@@ -65,8 +65,7 @@ void ContactWatch::book_touch(const Segment& segment, const Event& touch) {
 }
 
 void ContactWatch::follow_mode(const Segment& segment) {
-  const bool touching = std::any_of(segment.contacts.begin(), segment.contacts.end(),
-                                    [](const ContactState& contact) { return contact.touching(); });
+  const bool touching = is_touching(segment);
   const double start = segment.start.value();
   if (touching && !touching_) {
     // contact regained: the flight before it was a loss
@@ -83,8 +82,14 @@ void ContactWatch::note(Mode mode, double time) {
   if (changes_.empty() || changes_.back().mode != mode) changes_.push_back({time, mode});
 }
 
-Mode ContactWatch::mode() const {
-  if (changes_.empty()) return touching_ ? Mode::nonimpact : Mode::none;
+bool ContactWatch::is_touching(const Segment& segment) {
+  return std::any_of(segment.contacts.begin(), segment.contacts.end(),
+                     [](const ContactState& contact) { return contact.touching(); });
+}
+
+/// Before the first change: whether the first contact still lasts.
+Mode ContactWatch::mode_where(bool touching) const {
+  if (changes_.empty()) return touching ? Mode::nonimpact : Mode::none;
   return changes_.size() == 1 ? changes_.front().mode : Mode::mixed;
 }
 

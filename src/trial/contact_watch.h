@@ -27,9 +27,14 @@ class ContactWatch {
   const std::optional<FirstContact>& first_contact() const { return first_; }
   const std::optional<ImpactTimes>& impact_times(Spot spot) const { return times_[static_cast<std::size_t>(spot)]; }
   const std::vector<ModeChange>& mode_changes() const { return changes_; }
-  Mode mode() const;
+  /// Of the segments that have been booked.
+  Mode mode() const { return mode_where(touching_); }
+  /// Where the motion is in `segment`, the last booked one or that after it.
+  Mode mode_in(const Segment& segment) const { return mode_where(is_touching(segment)); }
 
  private:
+  static bool is_touching(const Segment& segment);
+  Mode mode_where(bool touching) const;
   void book_peaks(const Segment& segment);
   void book_touch(const Segment& segment, const Event& touch);
   void follow_mode(const Segment& segment);

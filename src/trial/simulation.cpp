@@ -241,7 +241,7 @@ const System& Simulation::system() const { return impl_->system_; }
 double Simulation::time() const { return impl_->time_; }
 State Simulation::state() const { return impl_->state_; }
 bool Simulation::ended() const { return impl_->ended_; }
-Mode Simulation::mode() const { return impl_->contacts_.mode(); }
+Mode Simulation::mode() const { return impl_->contacts_.mode_in(impl_->segment()); }
 long Simulation::impacts(Spot spot) const { return impl_->contacts_.impacts(spot); }
 TrialResult Simulation::result() const { return impl_->result(); }
 

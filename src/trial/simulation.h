@@ -51,7 +51,7 @@ class Simulation {
   double time() const;
   State state() const;
   bool ended() const;
-  Mode mode() const;  ///< mode up to now
+  Mode mode() const;  ///< up to segment(), in its contacts
   long impacts(Spot spot) const;
   /// The result so far; final once ended() is true.
   TrialResult result() const;

@@ -22,13 +22,16 @@ struct FrictionProblem {
   std::array<Vector, kSiteCount> mobility{};
   Vector drift{}, limit{};
 
-  Vector rates(const Vector& force) const {
-    Vector rate{};
-    for (int i = 0; i < count; ++i) {
-      rate[i] = drift[i];
-      for (int j = 0; j < count; ++j) rate[i] += mobility[i][j] * force[j];
-    }
+  double rate(int i, const Vector& force) const {
+    double rate = drift[i];
+    for (int j = 0; j < count; ++j) rate += mobility[i][j] * force[j];
     return rate;
+  }
+
+  Vector rates(const Vector& force) const {
+    Vector all{};
+    for (int i = 0; i < count; ++i) all[i] = rate(i, force);
+    return all;
   }
 
   /// V' of the minimum of 1/2 T.G.T + drift.T in the box, one coordinate at a time until nothing moves: V' is unique, T
@@ -39,7 +42,7 @@ struct FrictionProblem {
       double change = 0.0, largest = 0.0;
       for (int i = 0; i < count; ++i) {
         if (mobility[i][i] <= 0.0) continue;
-        const double next = std::clamp(force[i] - rates(force)[i] / mobility[i][i], -limit[i], limit[i]);
+        const double next = std::clamp(force[i] - rate(i, force) / mobility[i][i], -limit[i], limit[i]);
         change = std::max(change, std::abs(next - force[i]));
         largest = std::max(largest, std::abs(next));
         force[i] = next;

@@ -267,6 +267,23 @@ TEST(Sampler, impacts_and_progress_grow_to_those_of_the_result) {
   EXPECT_EQ(r.samples.front().progress, 0.0);
 }
 
+// Before the first change of mode contact is kept while the first one lasts, and nothing is decided in the flight after
+// it, however long that is.
+TEST(Sampler, before_the_first_change_mode_is_that_of_the_sample_s_contacts) {
+  const Record r = record(scene_of(insertion, {"initial.y=null", "gripper.pressing_force=0.1"}), 0.002);
+  ASSERT_EQ(r.result.mode_changes.at(0).mode, Mode::impact);
+  int kept = 0, undecided = 0;
+  for (const Sample& sample : r.samples) {
+    if (sample.time >= r.result.first_contact->time) break;
+    const bool touching = std::any_of(sample.contacts.begin(), sample.contacts.end(),
+                                      [](const ContactSample& contact) { return contact.state.touching(); });
+    EXPECT_EQ(sample.mode, touching ? Mode::nonimpact : Mode::none) << sample.time;
+    ++(touching ? kept : undecided);
+  }
+  EXPECT_GT(kept, 3);
+  EXPECT_GT(undecided, 3);
+}
+
 TEST(Sampler, of_a_failed_trial_ends_with_the_last_good_state) {
   Scene scene = scene_of(insertion);
   scene.solver.step_limit = 60;
