@@ -14,7 +14,7 @@ using nlohmann::json;
 
 constexpr int kNameWidth = 64;
 
-std::string number(double value, int digits = 4) {
+std::string rounded(double value, int digits = 4) {
   if (std::isnan(value)) return "-";
   char text[32];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
@@ -22,7 +22,7 @@ std::string number(double value, int digits = 4) {
 }
 
 /// As the facts file gives it.
-std::string limit(double bound) { return number(bound, 6); }
+std::string limit(double bound) { return rounded(bound, 6); }
 
 std::string bound_text(const Bound& bound) {
   if (bound.at_least && bound.at_most)
@@ -34,7 +34,7 @@ std::string bound_text(const Bound& bound) {
 /// 5 and 95 % over resampled samples.
 std::string range_text(const Reading& reading) {
   if (std::isnan(reading.low) || std::isnan(reading.high)) return "";
-  return number(reading.low) + " to " + number(reading.high);
+  return rounded(reading.low) + " to " + rounded(reading.high);
 }
 
 /// The text broken into lines of at most `width` characters.
@@ -93,7 +93,7 @@ std::string ledger_text(const FactBook& book, const std::vector<FactResult>& res
       const std::vector<std::string> name = wrapped(measure.name, kNameWidth);
       for (std::size_t k = 0; k + 1 < name.size(); ++k) text += "        " + name[k] + "\n";
       std::snprintf(line, sizeof line, "      %c %-*s %8s  %-12s %s\n", measure.met ? ' ' : '*', kNameWidth,
-                    name.back().c_str(), number(measure.reading.value).c_str(), bound_text(measure.bound).c_str(),
+                    name.back().c_str(), rounded(measure.reading.value).c_str(), bound_text(measure.bound).c_str(),
                     range_text(measure.reading).c_str());
       text += line;
     }
@@ -116,7 +116,7 @@ std::string ledger_markdown(const FactBook& book, const std::vector<FactResult>&
     for (const MeasureResult& measure : results[i].measures) {
       const std::string met = results[i].met ? "**met**" : "**missed**";
       text += "| " + (first ? fact.id : "") + " | " + (first ? fact.says : "") + " | " + measure.name + " | " +
-              number(measure.reading.value) + " | " + range_text(measure.reading) + " | " + bound_text(measure.bound) +
+              rounded(measure.reading.value) + " | " + range_text(measure.reading) + " | " + bound_text(measure.bound) +
               " | " + (first ? met : "") + (measure.met || results[i].measures.size() == 1 ? "" : " (not this)") +
               " |\n";
       first = false;

@@ -16,7 +16,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr std::chrono::seconds kInterval(1);
+constexpr std::chrono::seconds kWatchInterval(1);
 
 /// A call to the master. False when it does not answer.
 bool ask_master(const char* method, XmlRpcValue& request, XmlRpcValue& answer) {
@@ -96,7 +96,7 @@ MasterWatch::~MasterWatch() {
 
 void MasterWatch::watch(int known) {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!stopped_.wait_for(lock, kInterval, [this] { return stop_; })) {
+  while (!stopped_.wait_for(lock, kWatchInterval, [this] { return stop_; })) {
     lock.unlock();
     const int now = master_process();
     // a master that was started anew may have the process number of the one before, as in a container
