@@ -137,7 +137,12 @@ class Search {
         point = bounds_.point(site);
         if (bounds_.surely_holds(limit, point)) continue;
       }
-      offer(first_fall(condition_series(limit, site), order_, duration_, 0), EventKind::run_off, site, limit.face);
+      const Series g = condition_series(limit, site);
+      // at the very end of the face last digits of its powers are not where the foot begins to leave it
+      const double rounding = length_rounding();
+      const int zeros = std::abs(g[0]) <= rounding ? zeros_on_border(g, rounding) : 0;
+      if (zeros > order_) continue;
+      offer(first_fall(g, order_, duration_, zeros > 1 ? zeros : 0), EventKind::run_off, site, limit.face);
     }
   }
 
@@ -404,7 +409,10 @@ class Search {
         const double at_start = conditions.g[j][0];
         const bool on_border = pinned || (at_start >= 0.0 && at_start <= rounding);
         const int zeros = on_border ? zeros_of_entry(conditions.g[j], rounding) : 0;
-        conditions.zeros_at_start[j] = pinned && zeros <= order_ ? 1 : zeros;
+        // from a face that it has just left, by last digits only, a point comes back later; what enters by them and
+        // turns at once does not, nor does a free point that these let out (guard_free())
+        const bool leaves_first = pinned && zeros <= order_ && conditions.g[j][1] <= 0.0;
+        conditions.zeros_at_start[j] = leaves_first ? 1 : zeros;
       }
       if (moves_along(conditions)) continue;
       Entry entry = first_entry(conditions, order_, duration_);

@@ -141,14 +141,22 @@ VIBRATORY_ALIGNMENT_INLINE void MotionSeries::force_term(Contact& contact, int k
 }
 
 /// Adds force and moment (x, y, phi, 0) of all contacts, power k. What holds a sticking contact is zero in this power
-/// as yet. Each contact's are a sum of their own: those of a symmetric part take each other away to the last digit.
+/// as yet. Each contact's are a sum of their own: those of a symmetric part take each other away to the last digit; and
+/// so are those of a pair, which the mirror image adds up the other way.
 VIBRATORY_ALIGNMENT_INLINE void MotionSeries::add_contact_load(int k, const Segment& segment, Quad& load) const {
-  for (int i = 0; i < segment.loaded_count; ++i) {
+  const auto add_load_of = [&](int i, Quad& own) VIBRATORY_ALIGNMENT_INLINE_LAMBDA {
     const Contact& contact = contacts_[i];
     const ContactSeries& series = segment.loaded[i];
-    Quad own{};
     add_product_term(contact.push, series.normal_force, k, own);
     if (contact.separate_t) add_product_term(contact.drag, series.tangential_force, k, own);
+  };
+  for (int i = 0; i < segment.loaded_count; ++i) {
+    Quad own{}, of_other{};
+    add_load_of(i, own);
+    const bool is_pair = i + 1 < segment.loaded_count && side_of(contacts_[i].site) > 0.0 &&
+                         static_cast<int>(contacts_[i + 1].site) == static_cast<int>(contacts_[i].site) + 1;
+    if (is_pair) add_load_of(++i, of_other);
+    own += of_other;
     load += own;
   }
 }

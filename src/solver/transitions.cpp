@@ -196,6 +196,7 @@ void apply_events(const System& system, const Segment& segment, const DriveForms
     switch (events.events[i].kind) {
       case EventKind::touch:
         contact = {Phase::loaded, face, Slip::none};
+        pins = {};  // those of an earlier contact, maybe of another face, at the same instant
         pins.normal = is_undamped(system, state, face) ? 1 : 0;
         mode.recoveries[index] = {};
         break;
@@ -269,7 +270,11 @@ double excess_friction(const System& system, const Segment& segment, double step
     if (slip_of(segment, contact) != Slip::stick) continue;
     const Series& n = contact.normal_force;
     const double beyond = std::abs(contact.tangential_force[0]) - system.friction * std::abs(n[0]);
-    const double size = system.friction * (std::abs(n[0]) + std::abs(n[1]) * h + std::abs(n[2]) * h * h);
+    if (!(beyond > 0.0)) continue;
+    // N may begin with a higher power, as far as decisions look, where T begins with last digits of other forces
+    double size = 0.0;
+    for (int k = std::min(segment.order, MotionSeries::kHeldPowers - 1); k >= 0; --k) size = size * h + std::abs(n[k]);
+    size *= system.friction;
     if (beyond > excess * size) excess = beyond / size;
   }
   return excess;
