@@ -73,9 +73,9 @@ double Drive::phase_at(const Instant& t) const {
     if (branch_ == 0) {
       angle = reduce(product(excitation_.frequency, dt)) + reduce(product(0.5 * rate, product(dt, dt)));
     } else {
+      const Double2 swept{excitation_.sweep_time, 0.0}, after = elapsed(reference_ + excitation_.sweep_time, t);
       const double at_end =
-          reduce({0.5 * (excitation_.frequency + excitation_.end_frequency) * excitation_.sweep_time, 0.0});
-      const Double2 after{dt.high - excitation_.sweep_time, dt.low};
+          reduce(product(excitation_.frequency, swept)) + reduce(product(0.5 * rate, product(swept, swept)));
       angle = at_end + reduce(product(excitation_.end_frequency, after));
     }
   } else {
@@ -154,11 +154,14 @@ void Drive::change(const Excitation& excitation, const Instant& now) {
     reference_phase_ = wrap(reference_phase_ + shift);
     return;
   }
+  // at a kink the last digit of the phase does not tell which law holds: that of before it goes on
+  const bool goes_on = excitation.waveform == excitation_.waveform && excitation.waveform != Waveform::chirp &&
+                       shift == 0.0 && excitation_.amplitude != 0.0;
   const double theta = phase_at(now);
   excitation_ = excitation;
   reference_ = now;
   reference_phase_ = wrap(theta + shift);
-  choose_branch(now);
+  if (!goes_on) choose_branch(now);
 }
 
 }  // namespace vibratory_alignment

@@ -21,8 +21,7 @@ struct Region {
   int count = 0;
 };
 
-/// Edges: the part. Corners: the base on their side of the slot (they can only reach the near half: index 0 is the
-/// right half of the base, 1 the left). Floor sites: below the floor.
+/// Edges: the part. Corners: one half of the base, 0 the right one, 1 the left one. Floor sites: below the floor.
 Region site_region(const System& system, Site site, int half);
 
 /// Number of regions a site has: 1 for edges and floor sites, 2 for corners.

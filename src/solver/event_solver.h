@@ -69,7 +69,8 @@ class EventSolver final : public Solver {
   void go_to_end();
   void change_drives(const std::vector<Excitation>& excitations);
   void forces_jump();
-  /// Not finite where any coefficient is not: the last ones are made of all others.
+  /// Of power series not finite where any coefficient is not: the last ones are made of all others. Zero of an implicit
+  /// step, whose solution has been found finite.
   static double last_terms(const Segment& segment);
 
   /// Implicit steps to events no later than this, relative to the time, are no progress.

@@ -1,5 +1,5 @@
 // The segment of a step of first order: the forces are those that acted, constant over the step, and everything that
-// moves goes in lines from its begin to its end (docs/solvers.md "Segments").
+// moves goes in lines from its begin to its end (docs/solvers.md "What they share").
 #pragma once
 
 #include "solver/step_method.h"

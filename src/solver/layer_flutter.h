@@ -1,5 +1,5 @@
 // A contact in the tanh layer whose ring grows: N and V drive each other through friction (docs/implicit_steps.md "What
-// grows"). The method of an implicit step would damp what it does not follow.
+// rings and grows"). The method of an implicit step would damp what it does not follow.
 #pragma once
 
 #include "mechanics/force_jacobian.h"

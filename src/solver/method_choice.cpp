@@ -22,7 +22,8 @@ struct Kind {
   constexpr double usual_implicit() const { return implicit(36); }
 };
 
-/// By the dearest law that contacts follow, and for each: one that is alone, beside others, beside others of that law.
+/// By the dearest law that contacts follow, and for each: one that is alone, beside others, beside others of that law
+/// (which is not asked for where all slide).
 /// The series have a loop of their own for one that is alone; an evaluation finds T where a contact sticks. What
 /// sticking adds is softer than the base, the tanh layer is not; two that stick hold the part.
 constexpr std::size_t kSlide = 0, kStick = 3, kInLayer = 6;

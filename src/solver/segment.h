@@ -1,5 +1,5 @@
 // A segment: one smooth piece of the motion, as power series in the time since its start or, in flight, in closed form,
-// or as polynomials in the sliding velocity, across the tanh layer.
+// or, across the tanh layer, as polynomials in a map of the sliding velocity.
 // Every solver produces segments; everything that looks at a motion (samples, peaks, energy, outcomes) reads them.
 #pragma once
 
@@ -21,14 +21,14 @@ enum class EventKind : std::uint8_t {
   release,        ///< N falls to zero
   close,          ///< the depth returns to zero
   run_off,        ///< the foot leaves the end of the face
-  slip_reversal,  ///< V = 0, slips on in the other direction
+  slip_reversal,  ///< V = 0, slips on in the other direction; tanh law: V enters the layer
   stick,          ///< V = 0 and friction holds
-  slip,           ///< friction no longer holds
+  slip,           ///< friction no longer holds; tanh law: V leaves the layer
   enter,          ///< a point enters the other body through a face without contact
   leave,          ///< ... and leaves it
   drive_kink,     ///< jump or kink of an excitation
   aligned,        ///< both lower corners in the slot, below the asked depth
-  inserted        ///< the floor or the asked depth is reached
+  inserted        ///< the asked depth is reached
 };
 
 struct Event {

@@ -23,7 +23,7 @@ class StepMethod {
   /// Computes a step. Fills in `segment` the end, order, series and loaded contacts (their phase and slip as they are
   /// during the step); cos and sin of the tilt are left to the caller. Sets `slip_at_end` of every loaded contact.
   /// Returns the number of evaluations of the forces. A result that is not finite is a failure, which the caller
-  /// reports. Depends on nothing but its arguments.
+  /// reports. Depends on nothing but its arguments and what it was made with.
   virtual int step(const StepStart& start, Segment& segment, std::array<Slip, kSiteCount>& slip_at_end) = 0;
 };
 

@@ -49,7 +49,7 @@ struct ModeChange {
 /// 1e-6.
 constexpr double kLargestResidual = 1e-3;
 
-/// Energy since the start (MODEL.md "Energy ledger"): all terms >= 0 are losses except `excitation_work` and `turning`.
+/// Energy since the start (MODEL.md "Energy ledger"): where the terms `_loss` are positive they are losses.
 struct EnergyLedger {
   double initial = 0.0, final = 0.0;  ///< E
   double excitation_work = 0.0;

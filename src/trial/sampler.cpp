@@ -65,12 +65,16 @@ void Sampler::read(double time, double local_time, Sample& sample) {
     contact.force_x = contact.normal_force * contact.normal_x + contact.tangential_force * contact.normal_y;
     contact.force_y = contact.normal_force * contact.normal_y - contact.tangential_force * contact.normal_x;
   }
-  for (int i = 0; i < kSpotCount; ++i)
-    sample.impacts[static_cast<std::size_t>(i)] = simulation_.impacts(static_cast<Spot>(i));
+  count_impacts(sample);
   sample.mode = simulation_.mode();
   sample.misalignment = std::abs(sample.state.x);
   const double clearance = simulation_.scene().slot.clearance, start = std::abs(system_.start.x);
   sample.progress = start > clearance ? std::clamp((start - sample.misalignment) / (start - clearance), 0.0, 1.0) : 1.0;
+}
+
+void Sampler::count_impacts(Sample& sample) const {
+  for (int i = 0; i < kSpotCount; ++i)
+    sample.impacts[static_cast<std::size_t>(i)] = simulation_.impacts(static_cast<Spot>(i));
 }
 
 bool Sampler::next(Sample& sample, const std::function<bool()>& go_on, double latest) {
@@ -105,6 +109,9 @@ bool Sampler::next(Sample& sample, const std::function<bool()>& go_on, double la
     integrated_to_ = 0.0;
     sample.is_event = is_event && target != end;
     sample.is_last = finished_;
+    // what happens at this instant has been booked by now
+    count_impacts(sample);
+    if (finished_) sample.mode = simulation_.result().mode;
     if (target == end) {
       ++index_;
       time_ = target;

@@ -71,6 +71,7 @@ class Sampler {
  private:
   void integrate_to(double local_time);
   void read(double time, double local_time, Sample& sample);
+  void count_impacts(Sample& sample) const;
 
   Simulation& simulation_;
   const System& system_;  ///< of the simulation

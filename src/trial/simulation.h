@@ -21,7 +21,7 @@ struct SimulationOptions {
 class Simulation {
  public:
   /// Throws SceneError when the scene has no start (no y_touch, no static equilibrium) and std::invalid_argument for an
-  /// unknown solver. Allocates here, and later only for more than 1024 changes of mode.
+  /// unknown solver. Allocates here and in set_excitations(), and else only for more than 1024 changes of mode.
   explicit Simulation(const Scene& scene, const SimulationOptions& options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;

@@ -275,6 +275,23 @@ TEST(Drive, chirp_goes_on_from_its_end_without_a_jump) {
   EXPECT_EQ(drive.time_to_kink(end), std::numeric_limits<double>::infinity());
 }
 
+// What has swept from 20 to 20 is a sine; and a sweep of half a million periods ends where its end frequency begins.
+TEST(Drive, a_long_chirp_does_not_lose_the_phase) {
+  Drive swept(chirp_of(20.0, 20.0, 0.1, 0.4), {});
+  swept.pass_kink();
+  for (const double t : {10.0, 1234.5, 3.14e5}) {
+    const Instant now = Instant{t, 0.0} + 1.2345e-12;
+    EXPECT_LT(angle_between(swept.phase_at(now), Float128(20.0) * time_of(now) + Float128(0.4)), 4e-15) << t;
+  }
+  for (const double sweep_time : {1.1e6, 1234567.8, 1.7e6 / 3.0}) {
+    Drive drive(chirp_of(1.3, 3.1, sweep_time, 0.4), {});
+    const Instant end = Instant{} + sweep_time;
+    const double before = drive.phase_at(end);
+    drive.pass_kink();
+    EXPECT_LT(angle_between(drive.phase_at(end), Float128(before)), 4e-15) << sweep_time;
+  }
+}
+
 TEST(Drive, change_keeps_the_phase) {
   for (const Waveform waveform : {Waveform::sine, Waveform::square, Waveform::triangle}) {
     Drive drive(excitation_of(waveform, 1.0, 20.0, 0.4), {});
@@ -287,6 +304,23 @@ TEST(Drive, change_keeps_the_phase) {
     EXPECT_LT(angle_between(drive.phase_at(later), Float128(before) + Float128(31.0) * (time_of(later) - time_of(now))),
               2e-15);
   }
+}
+
+// The phase of a kink is one of two neighbours of the target, so that asked anew the law of before it could hold again.
+TEST(Drive, settings_that_are_given_at_a_kink_do_not_repeat_it) {
+  for (const Waveform waveform : {Waveform::square, Waveform::triangle})
+    for (const double frequency : {1.3, 17.0, 20.7}) {
+      Drive drive(excitation_of(waveform, 1.0, frequency, 0.0), {});
+      Instant now = Instant{} + drive.time_to_kink({});
+      drive.pass_kink();
+      for (int i = 0; i < 1000; ++i) {
+        drive.change(excitation_of(waveform, i % 2 == 0 ? 0.5 : 1.0, frequency, 0.0), now);
+        const double to_kink = drive.time_to_kink(now);
+        ASSERT_NEAR(to_kink * frequency, kPi, 1e-12) << frequency << ", kink " << i;
+        now = now + to_kink;
+        drive.pass_kink();
+      }
+    }
 }
 
 TEST(Drive, a_new_phase_setting_shifts_by_the_difference) {
