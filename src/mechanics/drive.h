@@ -59,6 +59,9 @@ class Drive {
   /// Goes on to the law after the kink.
   void pass_kink();
 
+  /// Goes on to the law that holds at `t`, past any number of kinks of a square or a triangle.
+  void go_to(const Instant& t) { choose_branch(t); }
+
   /// New settings from `now` on. The phase goes on from where it is, plus the difference of the two `phase` settings.
   /// So does a sweep of the same frequencies and time; another one begins.
   void change(const Excitation& excitation, const Instant& now);

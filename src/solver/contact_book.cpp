@@ -7,6 +7,9 @@
 namespace vibratory_alignment {
 namespace {
 
+/// A point this close to a face, relative to the lengths of the bodies and the place of the part, lies on it.
+constexpr double kOnFace = 1e-15;
+
 /// A corner reaches the floor only inside the slot, or while it presses into a wall: from within the slot either way,
 /// also where it comes to both in one step.
 bool over_floor(const System& system, const ContactBook& book, Site site, const Vec2& point) {
@@ -21,18 +24,20 @@ double above(const RegionCondition& condition, const Vec2& point, const Recovery
   return recovery.face == condition.face ? value - recovery.deformation : value;
 }
 
-/// The face that a point has crossed to come in: of the condition that became true last, or, where all of them held
-/// before, of the one that is nearest. `left`: what the base keeps of its deformation, at both ends.
+/// The face that a point has crossed to come in: of the condition that became true last, of several at once, as from a
+/// corner (to `digits`, the last ones of lengths), the one that is nearest now; or, where all of them held before, of
+/// the nearest. `left`: what the base keeps of its deformation, at both ends.
 Face crossed_face(const Region& region, const Vec2& from, const Vec2& to, const Recovery& left_before,
-                  const Recovery& left_now) {
-  double last = -1.0, least = INFINITY;
+                  const Recovery& left_now, double digits) {
+  double last = -1.0, least = INFINITY, depth = INFINITY;
   Face crossed = Face::none, nearest = Face::none;
   for (std::size_t j = 0; j < static_cast<std::size_t>(region.count); ++j) {
     const RegionCondition& condition = region.conditions[j];
     const double now = above(condition, to, left_now), before = above(condition, from, left_before);
-    const double when = before <= 0.0 ? before / (before - now) : -1.0;
-    if (when > last) {
+    const double when = std::abs(before) <= digits ? 0.0 : before <= 0.0 ? before / (before - now) : -1.0;
+    if (when > last || (when == last && crossed != Face::none && now < depth)) {
       last = when;
+      depth = now;
       crossed = condition.face;
     }
     if (now < least) {
@@ -54,7 +59,8 @@ SiteFate fate_outside(const System& system, const SiteTable& table, const Contac
     for (std::size_t j = 0; inside && j < static_cast<std::size_t>(region.count); ++j)
       inside = above(region.conditions[j], point, left_now) > 0.0;
     if (!inside) continue;
-    const Face face = crossed_face(region, book.points[index], point, left, left_now);
+    const Face face =
+        crossed_face(region, book.points[index], point, left, left_now, last_digits(system, book.placed.state));
     const bool touches = is_called_for(system, face) && (face != Face::floor || over_floor(system, book, site, point));
     return touches ? SiteFate{Phase::loaded, face, true, EventKind::touch, face}
                    : SiteFate{Phase::free, Face::none, true, EventKind::enter, face};
@@ -62,8 +68,9 @@ SiteFate fate_outside(const System& system, const SiteTable& table, const Contac
   return {};
 }
 
-SiteFate fate_touching(const System& system, Face face, const Vec2& point) {
-  if (!(contact_frame(system, face).depth(point.x, point.y) > 0.0))
+/// A contact lasts as long as its point is on the face, to the last digits: else these would touch and leave in turn.
+SiteFate fate_touching(const System& system, Face face, const PlacedState& placed, const Vec2& point) {
+  if (!(contact_frame(system, face).depth(point.x, point.y) >= -last_digits(system, placed.state)))
     return {Phase::outside, Face::none, true, EventKind::close, face};
   const Region limits = face_limits(system, face, point);
   for (std::size_t j = 0; j < static_cast<std::size_t>(limits.count); ++j)
@@ -129,6 +136,11 @@ void follow_site(const System& system, const ContactState& before, Site site, co
 
 }  // namespace
 
+double last_digits(const System& system, const State& s) {
+  return kOnFace *
+         (std::abs(s.x) + std::abs(s.y) + system.half_width + system.base_distance + system.slot_half_width);
+}
+
 SiteTable::SiteTable(const System& system) {
   for (std::size_t i = 0; i < kSiteCount; ++i) {
     const auto site = static_cast<Site>(i);
@@ -145,7 +157,7 @@ SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook
   switch (contact.phase) {
     case Phase::outside: return fate_outside(system, table, book, site, placed, point, elapsed);
     case Phase::free: return fate_free(table, site, point);
-    default: return fate_touching(system, contact.face, point);
+    default: return fate_touching(system, contact.face, placed, point);
   }
 }
 

@@ -44,6 +44,9 @@ struct SiteFate {
 SiteFate fate_of(const System& system, const SiteTable& table, const ContactBook& book, Site site,
                  const PlacedState& placed, const Vec2& point, double elapsed);
 
+/// A point this close to a face lies on it.
+double last_digits(const System& system, const State& state);
+
 /// The book of a start: points inside the other body touch its nearest face.
 ContactBook open_book(const System& system, const SiteTable& table, const State& start);
 

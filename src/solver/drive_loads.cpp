@@ -17,13 +17,16 @@ DriveLoads::DriveLoads(const std::vector<Excitation>& excitations, const Instant
 }
 
 void DriveLoads::begin_step(const Instant& start) {
+  start_ = start;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     forms_[i].before = drives_[i].form_at(start);
-    forms_[i].kink = drives_[i].time_to_kink(start);
+    forms_[i].kink = forms_[i].second = drives_[i].time_to_kink(start);
     if (!std::isfinite(forms_[i].kink)) continue;
     Drive beyond = drives_[i];
     beyond.pass_kink();
-    forms_[i].after = beyond.form_at(start + forms_[i].kink);
+    const Instant at_kink = start + forms_[i].kink;
+    forms_[i].after = beyond.form_at(at_kink);
+    forms_[i].second += beyond.time_to_kink(at_kink);
   }
 }
 
@@ -31,7 +34,12 @@ Load3 DriveLoads::at(double t) const {
   Load3 load;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const Form& form = forms_[i];
-    const double value = t < form.kink ? form.before.at(t) : form.after.at(t - form.kink);
+    double value = t < form.kink ? form.before.at(t) : form.after.at(t - form.kink);
+    if (t > form.second) {
+      Drive beyond = drives_[i];
+      beyond.go_to(start_ + t);
+      value = beyond.form_at(start_ + t).at(0.0);
+    }
     switch (drives_[i].direction()) {
       case Direction::x: load.x += value; break;
       case Direction::y: load.y += value; break;
@@ -46,8 +54,12 @@ bool DriveLoads::has_kink(double duration) const {
 }
 
 void DriveLoads::pass(double duration) {
-  for (std::size_t i = 0; i < drives_.size(); ++i)
-    if (forms_[i].kink <= duration) drives_[i].pass_kink();
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (forms_[i].second < duration)
+      drives_[i].go_to(start_ + duration);
+    else if (forms_[i].kink <= duration)
+      drives_[i].pass_kink();
+  }
 }
 
 void DriveLoads::change(const std::vector<Excitation>& excitations, const Instant& now) {

@@ -16,7 +16,7 @@ class DriveLoads {
   /// Prepares at() for a step from `start` on.
   void begin_step(const Instant& start);
 
-  /// Force and moment of all excitations, t after the start of the step, at most to the second kink.
+  /// Force and moment of all excitations, t after the start of the step.
   Load3 at(double t) const;
 
   /// True when an excitation has a kink not later than `duration` after the start of the step.
@@ -32,9 +32,11 @@ class DriveLoads {
   struct Form {
     DriveForm before, after;  ///< the laws on both sides of the kink, each from its own start
     double kink = 0.0;        ///< time to it
+    double second = 0.0;      ///< ... and to the next one: from there on the law is looked for
   };
 
   std::vector<Drive> drives_;
+  Instant start_;  ///< of the step
   std::vector<Form> forms_;
 };
 

@@ -9,9 +9,6 @@ namespace {
 /// A rest of a step this small, relative to the step, is joined to a neighbour.
 constexpr double kSliver = 1e-6;
 
-/// A point this close to a face, relative to the lengths of the bodies and the place of the part, lies on it.
-constexpr double kOnFace = 1e-15;
-
 }  // namespace
 
 FixedStepSolver::FixedStepSolver(const System& system, const std::vector<Excitation>& excitations,
@@ -68,9 +65,36 @@ const Segment& FixedStepSolver::advance(double limit) {
     rest();
   }
   book_end(true);
-  if (is_first) take_events_of_start();
+  if (is_first) {
+    look_beyond_rest();
+    take_events_of_start();
+  }
   set_direction();
   return segment_;
+}
+
+/// Where the forces of the start are zero the first step may leave the part exactly where it is. What the next one leads
+/// into is touched at the start then.
+void FixedStepSolver::look_beyond_rest() {
+  const State &begin = segment_.begin, &end = segment_.end;
+  if (segment_.duration == 0.0 || begin.x != end.x || begin.y != end.y || begin.phi != end.phi) return;
+  Segment next;
+  next.start = now_ + segment_.duration;
+  next.begin = end;
+  next.duration = step_;
+  next.contacts = end_book().contacts;
+  if (system_.recovery) next.recoveries = end_book().recoveries;
+  std::array<Slip, kSiteCount> slip{};
+  drives_.begin_step(next.start);
+  method_->step({system_, sites_, end_book(), drives_, next.duration}, next, slip);
+  drives_.begin_step(now_);
+  if (!is_finite(next.end)) return;
+  ContactBook after(next.end);
+  follow(system_, sites_, end_book(), next, after);
+  for (int i = 0; i < next.event_count; ++i) {
+    const Event& event = next.events[static_cast<std::size_t>(i)];
+    if (event.kind == EventKind::touch && starts_on(event)) add_event(segment_, event.kind, event.site, event.face);
+  }
 }
 
 /// What the first step has found may be of the start itself: the touch of a face on which a point starts, an outcome
@@ -119,9 +143,7 @@ void FixedStepSolver::add_outcomes(const ContactBook& at) {
 
 bool FixedStepSolver::starts_on(const Event& touch) const {
   const Vec2& point = book().points[static_cast<std::size_t>(touch.site)];
-  const double lengths =
-      std::abs(state().x) + std::abs(state().y) + system_.half_width + system_.base_distance + system_.slot_half_width;
-  return std::abs(contact_frame(system_, touch.face).depth(point.x, point.y)) <= kOnFace * lengths;
+  return std::abs(contact_frame(system_, touch.face).depth(point.x, point.y)) <= last_digits(system_, state());
 }
 
 /// A segment without length.

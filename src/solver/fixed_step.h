@@ -32,6 +32,7 @@ class FixedStepSolver final : public Solver {
  private:
   void go_to_end();
   void rest();
+  void look_beyond_rest();
   void take_events_of_start();
   bool starts_on(const Event& touch) const;
   /// Outcomes that are awaited and hold at the book's instant.

@@ -111,7 +111,7 @@ bool Sampler::next(Sample& sample, const std::function<bool()>& go_on, double la
     sample.is_last = finished_;
     // what happens at this instant has been booked by now
     count_impacts(sample);
-    if (finished_) sample.mode = simulation_.result().mode;
+    if (finished_) sample.mode = simulation_.mode();
     if (target == end) {
       ++index_;
       time_ = target;

@@ -56,6 +56,7 @@ class Simulation::Impl {
   }
 
   const Segment& segment() const { return solver_->segment(); }
+  Mode mode() const { return ended_ ? contacts_.mode() : contacts_.mode_in(segment()); }
 
   void cut(double t) {
     if (!has_segment_ || !std::isfinite(t)) return;
@@ -241,7 +242,7 @@ const System& Simulation::system() const { return impl_->system_; }
 double Simulation::time() const { return impl_->time_; }
 State Simulation::state() const { return impl_->state_; }
 bool Simulation::ended() const { return impl_->ended_; }
-Mode Simulation::mode() const { return impl_->contacts_.mode_in(impl_->segment()); }
+Mode Simulation::mode() const { return impl_->mode(); }
 long Simulation::impacts(Spot spot) const { return impl_->contacts_.impacts(spot); }
 TrialResult Simulation::result() const { return impl_->result(); }
 

@@ -51,7 +51,7 @@ class Simulation {
   double time() const;
   State state() const;
   bool ended() const;
-  Mode mode() const;  ///< up to segment(), in its contacts
+  Mode mode() const;  ///< up to segment(), in its contacts; once ended() that of the result
   long impacts(Spot spot) const;
   /// The result so far; final once ended() is true.
   TrialResult result() const;

@@ -44,7 +44,7 @@ std::vector<Excitation> some() {
 
 TEST(DriveLoads, are_those_of_the_waveforms_whatever_the_step) {
   const std::vector<Excitation> e = some();
-  for (const double h : {0.003, 0.0137, 0.1}) {
+  for (const double h : {0.003, 0.0137, 0.1, 0.37, 0.71, 1.3}) {  // up to two periods and more
     DriveLoads loads(e, {});
     Instant now;
     for (int n = 0; n * h < 3.0; ++n) {

@@ -294,6 +294,46 @@ TEST_P(FixedStep, a_free_oscillation_keeps_or_loses_what_theory_says) {
   EXPECT_NEAR(std::sqrt(squared), expected, 1e-9 * amplitude);
 }
 
+// A part that starts exactly on its base and moves into it is pushed by the damper from the start on: smooth motion,
+// in which each method has its order.
+TEST_P(FixedStep, a_start_exactly_on_a_face_costs_no_order) {
+  const Scene ball = scene_of(test::ball, {"base={stiffness: {y: 400}, damping: {y: 8}}", "friction=null",
+                                           "initial={x: 0.2, y: 0.9, vy: -1}"});
+  const double until = 0.02;
+  const double exact = run(with_event_solver(ball), {}, until).final_state.y;
+  const auto error = [&](double h) {
+    return std::abs(run(with_solver(ball, GetParam(), h), {}, until).final_state.y - exact);
+  };
+  const double order = test::order_between(2e-3, error(2e-3), 1e-3, error(1e-3));
+  EXPECT_NEAR(order, test::order_of(GetParam()), 0.3);
+}
+
+// ... and the force that is reported at the start is that of the base.
+TEST_P(FixedStep, a_start_exactly_on_a_face_is_pushed_at_once) {
+  if (GetParam() != "rk4") return;
+  const Scene ball = with_solver(scene_of(test::ball, {"base={stiffness: {y: 400}, damping: {y: 8}}", "friction=null",
+                                                       "initial={x: 0.2, y: 0.9, vy: -1}"}),
+                                 GetParam(), 1e-3);
+  double first = -1.0;
+  run(
+      ball,
+      [&](const Segment& g) {
+        if (first < 0.0 && g.loaded_count > 0) first = g.loaded[0].normal_force[0];
+      },
+      0.01);
+  EXPECT_NEAR(first, 8.0, 1e-12);
+}
+
+// At rest exactly on its base, with a force that begins at zero: it has touched at the start, whichever step moves it.
+TEST_P(FixedStep, a_start_on_a_face_without_force_is_no_impact) {
+  const Scene ball = with_solver(scene_of(test::ball, {"gripper.anchor.y=0.9", "excitation.amplitude=-1",
+                                                       "initial={x: 0.2, y: 0.9}", "trial.time_limit=0.2"}),
+                                 GetParam(), 1e-4);
+  const TrialResult result = run(ball);
+  EXPECT_EQ(result.impacts[0], 0);
+  EXPECT_FALSE(result.first_contact);
+}
+
 // Steps far too long for the scene: an outcome in finite numbers or a failure with a reason, never for ever.
 TEST_P(FixedStep, steps_that_are_too_long_come_to_an_end) {
   for (const double h : {0.02, 0.3, 5.0, 1e6})
