@@ -37,6 +37,19 @@ AlignServer::AlignServer(const ros::NodeHandle& private_handle, double feedback_
   server_.start();
 }
 
+bool AlignServer::Server::forget_times_to_come() {
+  const boost::recursive_mutex::scoped_lock lock(lock_);
+  const ros::Time now = ros::Time::now();
+  bool any = last_cancel_ > now;
+  if (any) last_cancel_ = now;  // else it would cancel all goals to come
+  for (auto& status : status_list_) {
+    if (status.handle_destruction_time_ <= now) continue;
+    status.handle_destruction_time_ = now;
+    any = true;
+  }
+  return any;
+}
+
 void AlignServer::on_goal(Server::GoalHandle handle) {
   if (goal_) {
     const std::string busy = "another goal is being carried out (" + goal_->getGoalID().id + "); cancel it or wait";

@@ -47,8 +47,16 @@ class AlignServer {
   void abort(const Messages& messages, const TrialResult& so_far, const std::string& text);
   void preempt(const Messages& messages, const TrialResult& so_far, const std::string& text);
 
+  /// actionlib remembers goals and cancels by the stamps of their clients, one of which may be the end of ROS time, beyond
+  /// which it cannot count: every status would throw. Such ones are taken for those of now; false if there are none.
+  bool forget_times_to_come() { return server_.forget_times_to_come(); }
+
  private:
-  using Server = actionlib::ActionServer<AlignAction>;
+  class Server : public actionlib::ActionServer<AlignAction> {
+   public:
+    using actionlib::ActionServer<AlignAction>::ActionServer;
+    bool forget_times_to_come();
+  };
   void on_goal(Server::GoalHandle handle);
   void on_cancel(Server::GoalHandle handle);
 

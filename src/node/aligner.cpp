@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/callback_queue.h>
@@ -137,7 +138,12 @@ void Aligner::run_trials() {
         Clock::now() - ended_at_ >= std::chrono::duration<double>(parameters_.linger)) {
       return;
     }
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(due_in()));
+    try {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(due_in()));
+    } catch (const std::runtime_error& error) {
+      if (!align_server_.forget_times_to_come()) throw;
+      ROS_ERROR("~align: a client's goal or cancel has a stamp that is not possible: %s", error.what());
+    }
     start_time_scale_.restore();
   }
 }

@@ -1,5 +1,5 @@
 // aligner_node: one alignment trial as a ROS node. docs/node.md lists its parameters, topics, services and settings.
-// SIGINT, SIGTERM and `rosnode kill` end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene,
+// SIGINT, SIGTERM, SIGHUP and `rosnode kill` end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene,
 // bad parameters).
 #include <atomic>
 #include <chrono>
@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
   std::signal(SIGALRM, on_alarm);
   try {
     ros::init(argc, argv, "aligner", ros::init_options::NoSigintHandler);

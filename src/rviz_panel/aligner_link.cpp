@@ -8,6 +8,8 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/master.h>
 #include <ros/service.h>
+#include <ros/service_manager.h>
+#include <ros/this_node.h>
 #include <std_srvs/Trigger.h>
 #include <vibratory_alignment/LoadScene.h>
 
@@ -58,7 +60,6 @@ void tell_departures(const Entries& asked, const Entries& in_force, std::string&
 
 AlignerLink::AlignerLink(const std::string& node) : node_(node) {
   handle_.setCallbackQueue(&queue_);
-  subscribe();
   worker_ = std::thread([this] { work(); });
 }
 
@@ -71,7 +72,9 @@ AlignerLink::~AlignerLink() {
   worker_.join();
 }
 
+/// roscpp waits for the master here, without limit.
 void AlignerLink::subscribe() {
+  subscribers_.clear();
   subscribers_ = {handle_.subscribe(node_ + "/state", kQueueSize, &AlignerLink::on_state, this),
                   handle_.subscribe(node_ + "/result", 1, &AlignerLink::on_result, this),
                   handle_.subscribe(node_ + "/parameter_updates", 10, &AlignerLink::on_settings, this),
@@ -128,9 +131,23 @@ void AlignerLink::drop_hanging_call() {
 
 // --- What the node publishes ---------------------------------------------------------------------------------------
 
-void AlignerLink::on_state(const AlignerState& state) {
+/// Beside a node that is there a bag may be played under its name.
+template <class Message>
+bool AlignerLink::is_from_another(const ros::MessageEvent<const Message>& event) const {
+  return status_.presence == Presence::present && event.getPublisherName() != node_;
+}
+
+/// The last one again, for a newcomer. On a clock of their own all nodes begin with the same stamp.
+bool AlignerLink::is_same_sample(const AlignerState& state) const {
+  return status_.state && state.header.stamp == status_.state->header.stamp && state.tau == status_.state->tau &&
+         state.scene == status_.state->scene;
+}
+
+void AlignerLink::on_state(const ros::MessageEvent<const AlignerState>& event) {
+  const AlignerState& state = *event.getConstMessage();
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (status_.state && state.header.stamp == status_.state->header.stamp) return;  // the last one, for a newcomer
+  if (is_from_another(event)) return;
+  if (is_same_sample(state)) return;
   if (status_.result && state.header.stamp > status_.result->header.stamp) status_.result.reset();
   if (status_.state && state.tau <= status_.state->tau) {
     status_.result.reset();  // the stamps may have been set back, too
@@ -142,19 +159,23 @@ void AlignerLink::on_state(const AlignerState& state) {
   if (samples_.size() < kKeptSamples) samples_.push_back(state);
 }
 
-void AlignerLink::on_result(const AlignerResult& result) {
+void AlignerLink::on_result(const ros::MessageEvent<const AlignerResult>& event) {
+  const AlignerResult& result = *event.getConstMessage();
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_from_another(event)) return;
   // A latched result may be that of the trial before; that of the present one bears the stamp of its last sample.
   if (status_.state && status_.state->header.stamp > result.header.stamp) return;
   status_.result = result;
 }
 
-void AlignerLink::on_settings(const dynamic_reconfigure::Config& settings) {
-  dynamic_reconfigure::Config message = settings;
-  AlignerConfig config = AlignerConfig::__getDefault__();
-  if (!config.__fromMessage__(message)) return;
+void AlignerLink::on_settings(const ros::MessageEvent<const dynamic_reconfigure::Config>& event) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  status_.settings = config;
+  if (!is_from_another(event)) keep_settings(*event.getConstMessage());
+}
+
+void AlignerLink::keep_settings(dynamic_reconfigure::Config message) {
+  AlignerConfig config = AlignerConfig::__getDefault__();
+  if (config.__fromMessage__(message)) status_.settings = config;
 }
 
 void AlignerLink::on_diagnostics(const ros::MessageEvent<const diagnostic_msgs::DiagnosticArray>& event) {
@@ -173,19 +194,36 @@ void AlignerLink::work() {
   }
 }
 
+/// Which master and which process of the node it is: another one may have taken the place of either between two looks.
+std::string AlignerLink::identity() const {
+  XmlRpc::XmlRpcValue request, response, pid;
+  request[0] = ros::this_node::getName();
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("getPid", request, response, pid, false) ||
+      !ros::ServiceManager::instance()->lookupService(node_ + "/start", host, port))
+    return "";
+  return std::to_string(static_cast<int>(pid)) + " " + host + ":" + std::to_string(port);
+}
+
 void AlignerLink::look_for_node() {
   const bool master = ros::master::check();
   const bool there = master && ros::service::exists(node_ + "/start", false);
+  const std::string found = there ? identity() : "";
+  const bool is_other = !found.empty() && found != std::exchange(identity_, found);
+  if (master && subscribers_.empty()) subscribe();
   next_look_ = Clock::now() + kLookInterval;
   bool back = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const Presence before = status_.presence;
     status_.presence = !master ? Presence::no_master : there ? Presence::present : Presence::absent;
-    back = there && (before == Presence::absent || before == Presence::no_master);
+    back = there && before != Presence::sought && (before != Presence::present || is_other);
     if (!there || back) status_.settings.reset();
     if (back) {
+      status_.state.reset();
       status_.result.reset();
+      samples_.clear();
       status_.answer.clear();
       status_.refused = false;
       last_arrival_ = last_diagnostics_ = {};
@@ -195,10 +233,7 @@ void AlignerLink::look_for_node() {
       status_.changing = false;
     }
   }
-  if (back) {  // a new master does not know of these subscriptions
-    subscribers_.clear();
-    subscribe();
-  }
+  if (back) subscribe();  // a new master does not know of these subscriptions
 }
 
 /// False when nothing waits.
@@ -238,7 +273,8 @@ void AlignerLink::carry_out(const Changes& changes) {
   tell_departures(changes.ints, answer.ints, words);
   tell_departures(changes.bools, answer.bools, words);
   tell(!words.empty(), words);
-  on_settings(answer);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  keep_settings(answer);
 }
 
 /// False, and the user is told, if the node does not answer. Once the link ends no further call begins: nobody would

@@ -91,16 +91,22 @@ class AlignerLink {
   void tell(bool refused, const std::string& answer);
   void drop_hanging_call();
 
-  void on_state(const AlignerState& state);
-  void on_result(const AlignerResult& result);
-  void on_settings(const dynamic_reconfigure::Config& settings);
+  std::string identity() const;
+  template <class Message>
+  bool is_from_another(const ros::MessageEvent<const Message>& event) const;
+  bool is_same_sample(const AlignerState& state) const;
+  void on_state(const ros::MessageEvent<const AlignerState>& event);
+  void on_result(const ros::MessageEvent<const AlignerResult>& event);
+  void on_settings(const ros::MessageEvent<const dynamic_reconfigure::Config>& event);
+  void keep_settings(dynamic_reconfigure::Config message);
   void on_diagnostics(const ros::MessageEvent<const diagnostic_msgs::DiagnosticArray>& event);
 
   const std::string node_;
   ros::CallbackQueue queue_;
   ros::NodeHandle handle_;
   std::vector<ros::Subscriber> subscribers_;
-  Clock::time_point next_look_{};  ///< of the worker
+  Clock::time_point next_look_{};  ///< of the worker, as are the two before and after it
+  std::string identity_;
 
   std::mutex mutex_;  ///< of all that follows
   Status status_;

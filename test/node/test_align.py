@@ -12,7 +12,7 @@ import rospy
 import rospkg
 import rostest
 import yaml
-from actionlib_msgs.msg import GoalStatus
+from actionlib_msgs.msg import GoalID, GoalStatus
 from std_srvs.srv import Trigger
 
 from aligner_test_case import AlignerTestCase, align, scene_path
@@ -150,6 +150,18 @@ class Align(AlignerTestCase):
         self.assertEqual(result.tau, last.tau, 'paused where it was')
         self.assertEqual(result.impacts, last.impacts)
         self.assertTrue(self.call('start').success, 'it can be run to its end all the same')
+
+    def test_stamps_at_the_end_of_ros_time_end_nothing(self):
+        # actionlib keeps what it knows of these until their stamps and five seconds more, which are no time any more
+        last = rospy.Time(4294967295)
+        cancels = rospy.Publisher('/aligner/align/cancel', GoalID, queue_size=10)
+        wait_for = time.time() + 15.0
+        while cancels.get_num_connections() == 0 and time.time() < wait_for:
+            time.sleep(0.05)
+        cancels.publish(GoalID(stamp=last, id='of nobody'))
+        time.sleep(1.0)  # its status is published by then
+        self.client.send(scene=scene_path('small'))
+        self.assertEqual(self.client.done()[1].tau, 3.0)
 
     # --- refusals -----------------------------------------------------------------------------------------------------
 

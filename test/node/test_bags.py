@@ -131,7 +131,7 @@ class Bags(AlignerTestCase):
                                                            (disk, self.directory)))],
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
-        self.assertIn('Less than 1G of space free on disk', record('1G').communicate(timeout=90.0)[0])
+        self.assertIn('less than 1G is free on the disk', record('1G').communicate(timeout=90.0)[0])
         recorder = record('1k')
         deadline = time.time() + 15.0
         while not self.recorded() and time.time() < deadline:

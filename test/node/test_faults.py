@@ -192,7 +192,8 @@ class Faults(AlignerTestCase):
             uri = rosgraph.Master('/test_faults').lookupNode('/own')
             self.assertEqual(ServerProxy(uri).shutdown('/test_faults', 'not wanted')[0], 1)
 
-        for end in (lambda: process.send_signal(signal.SIGINT), lambda: process.send_signal(signal.SIGTERM), kill_node):
+        for end in (lambda: process.send_signal(signal.SIGINT), lambda: process.send_signal(signal.SIGTERM),
+                    lambda: process.send_signal(signal.SIGHUP), kill_node):
             process = self.start_own()
             states = self.listen('/own/state', AlignerState)
             client = actionlib.SimpleActionClient('/own/align', AlignAction)

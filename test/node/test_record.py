@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """A bag from a live trial and one from `align trial --bag`."""
+import filecmp
 import itertools
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -73,6 +75,45 @@ class Record(unittest.TestCase):
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=40.0)
             self.assertEqual(run.returncode, 1)
             self.assertIn(why, run.stderr)
+
+    def refusal(self, bag, *words):
+        run = subprocess.run([program('record_bag'), bag, '/tf', *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                             universal_newlines=True, timeout=40.0)
+        self.assertEqual(run.returncode, 1)
+        return run.stderr
+
+    def test_nothing_is_begun_where_a_bag_would_be_lost_or_get_no_name(self):
+        folder = os.path.join(self.directory.name, 'kept')
+        os.makedirs(os.path.join(folder, 'folder.bag'))
+        bag, killed = os.path.join(folder, 'whole.bag'), os.path.join(folder, 'killed.bag')
+        for path in (bag, killed + '.active'):
+            shutil.copy(self.live, path)
+        self.assertIn('folder.bag: is a directory', self.refusal(os.path.join(folder, 'folder.bag')))
+        self.assertIn('is a directory', self.refusal(folder + '/'))
+        self.assertIn('rosbag reindex', self.refusal(killed))
+        self.assertIn('less than 999999G is free on the disk', self.refusal(bag, '--min-space=999999G'))
+        for path in (bag, killed + '.active'):
+            self.assertTrue(filecmp.cmp(path, self.live, shallow=False), path)
+        self.assertEqual(sorted(os.listdir(folder)), ['folder.bag', 'killed.bag.active', 'whole.bag'])
+
+    def test_signal_to_the_recorder_alone_ends_it_with_a_whole_bag(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            bag = os.path.join(self.directory.name, '%s.bag' % number.name)
+            recorder = subprocess.Popen([program('record_bag'), bag, '/rosout'], stdout=subprocess.PIPE,
+                                        stderr=subprocess.STDOUT, start_new_session=True)
+            deadline = time.time() + 20.0
+            while not os.path.exists(bag + '.active') and time.time() < deadline:
+                time.sleep(0.05)
+            recorder.send_signal(number)
+            recorder.communicate(timeout=20.0)
+            self.assertEqual((recorder.returncode, os.path.exists(bag)), (0, True), number.name)
+
+    def test_name_of_a_bag_may_have_any_sign(self):
+        name = 'it\'s a "b\u00fcg" $1.bag'
+        for launch, node in (('record.launch', 'record_aligner'), ('replay.launch', 'play')):
+            command = subprocess.check_output(['roslaunch', '--args', node, 'vibratory_alignment', launch, 'bag:=' + name],
+                                              universal_newlines=True)
+            self.assertIn(name, command)
 
     def test_action_is_recorded_on_request(self):
         for request, expected in (('false', set()), ('true', {'goal', 'cancel', 'feedback', 'result', 'status'})):

@@ -309,6 +309,19 @@ TEST_F(PanelTest, ANodeThatHangsDoesNotHoldUpThePanel) {
   EXPECT_TRUE(wait_until([this] { return says("presence", "paused: small"); })) << presence();
 }
 
+TEST_F(PanelTest, ShowsNothingThatOthersPublishUnderTheNameOfTheNode) {
+  ros::NodeHandle handle;
+  const ros::Publisher other = handle.advertise<AlignerState>("/aligner/state", 1);
+  ASSERT_TRUE(wait_until([&] { return other.getNumSubscribers() > 0; }));
+  AlignerState state;
+  state.scene = "of a bag";
+  state.header.stamp = ros::Time::now();
+  other.publish(state);
+  QTest::qWait(500);
+  EXPECT_TRUE(says("presence", "paused: small")) << presence();
+  EXPECT_EQ(points(), 1U);
+}
+
 TEST_F(PanelTest, SaysWhenTheNodeIsGoneAndFindsItAgain) {
   node->kill();
   ASSERT_TRUE(wait_until([this] { return says("presence", "no node /aligner"); })) << presence();
