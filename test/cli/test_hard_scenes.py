@@ -71,19 +71,23 @@ class HardScenesTest(AlignTestCase):
             self.assertNotIn("Traceback", process.stderr)
 
     def test_table_can_be_interrupted(self):
-        begun = self.path("begun")
-        slow = self.program("slow", "touch %s\nexec sleep 600" % begun)
-        process = subprocess.Popen(
-            [sys.executable, os.path.join(SOURCE_ROOT, "scripts", "hard_cases"), "--align", slow, "--print"],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # of a job in the background it is ignored
-        self.addCleanup(process.kill)
-        while process.poll() is None and not os.path.exists(begun):
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        _, messages = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 128 + signal.SIGINT, messages)
-        self.assertNotIn("Traceback", messages)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            begun = self.path("begun_" + number.name)
+            slow = self.program("slow", "echo $$ >%s\nexec sleep 600" % begun)
+            process = subprocess.Popen(
+                [sys.executable, os.path.join(SOURCE_ROOT, "scripts", "hard_cases"), "--align", slow, "--print"],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                # ignored in a job in the background, or under nohup
+                preexec_fn=lambda: [signal.signal(ignored, signal.SIG_DFL) for ignored in (signal.SIGINT, signal.SIGHUP)])
+            self.addCleanup(process.kill)
+            while process.poll() is None and not (os.path.exists(begun) and os.path.getsize(begun) > 0):
+                time.sleep(0.01)
+            process.send_signal(number)
+            _, messages = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 128 + number, messages)
+            self.assertNotIn("Traceback", messages)
+            with open(begun, encoding="ascii") as text:
+                self.assertRaises(ProcessLookupError, os.kill, int(text.read()), 0)
 
     # closed form: the exact solvers pass, the creep of rk4 does not
     def test_table_tells_right_from_wrong(self):

@@ -30,7 +30,8 @@ class Faults(AlignerTestCase):
             return None
 
     def spawn(self, *command):
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL,
+                                   preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # ignored under nohup
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process

@@ -100,7 +100,8 @@ class Record(unittest.TestCase):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             bag = os.path.join(self.directory.name, '%s.bag' % number.name)
             recorder = subprocess.Popen([program('record_bag'), bag, '/rosout'], stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT, start_new_session=True)
+                                        stderr=subprocess.STDOUT, start_new_session=True,
+                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # nohup
             deadline = time.time() + 20.0
             while not os.path.exists(bag + '.active') and time.time() < deadline:
                 time.sleep(0.05)
