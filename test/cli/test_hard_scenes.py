@@ -73,7 +73,7 @@ class HardScenesTest(AlignTestCase):
     def test_table_can_be_interrupted(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             begun = self.path("begun_" + number.name)
-            slow = self.program("slow", "echo $$ >%s\nexec sleep 600" % begun)
+            slow = self.program("slow", "echo $$ >>%s\nexec sleep 600" % begun)
             process = subprocess.Popen(
                 [sys.executable, os.path.join(SOURCE_ROOT, "scripts", "hard_cases"), "--align", slow, "--print"],
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
@@ -87,7 +87,8 @@ class HardScenesTest(AlignTestCase):
             self.assertEqual(process.returncode, 128 + number, messages)
             self.assertNotIn("Traceback", messages)
             with open(begun, encoding="ascii") as text:
-                self.assertRaises(ProcessLookupError, os.kill, int(text.read()), 0)
+                for started in text:
+                    self.assertRaises(ProcessLookupError, os.kill, int(started), 0)
 
     # closed form: the exact solvers pass, the creep of rk4 does not
     def test_table_tells_right_from_wrong(self):
