@@ -19,20 +19,20 @@ os.environ["PATH"] = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/b
 COUNTED = "vibratory_alignment::Simulation::advance()"
 
 
-class Ended(KeyboardInterrupt):
-    """By another signal than that of Ctrl-C: its number."""
+class EndedBySignal(KeyboardInterrupt):
+    """By another signal than that of Ctrl-C; its argument is the number."""
 
 
 def run(main):
     """Runs a bench. Ctrl-C, SIGTERM and SIGHUP end it without a traceback, and what it has started with it."""
     def end(number, _):
-        raise Ended(number)
+        raise EndedBySignal(number)
     for number in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, end)
     try:
         main()
-    except Ended as ended:
+    except EndedBySignal as ended:
         sys.exit(128 + ended.args[0])
     except KeyboardInterrupt:
         sys.exit(128 + signal.SIGINT)

@@ -1,6 +1,6 @@
 // aligner_node: one alignment trial as a ROS node. docs/node.md lists its parameters, topics, services and settings.
-// SIGINT, SIGTERM, SIGHUP and `rosnode kill` end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad scene,
-// bad parameters).
+// SIGINT, SIGTERM, SIGHUP and `rosnode kill` end it in an orderly way. Exit status: 0 it ran, 1 it could not start (bad
+// scene, bad parameters).
 #include <atomic>
 #include <chrono>
 #include <clocale>

@@ -104,9 +104,10 @@ class AlignerLink {
   const std::string node_;
   ros::CallbackQueue queue_;
   ros::NodeHandle handle_;
+  // of the worker
   std::vector<ros::Subscriber> subscribers_;
-  Clock::time_point next_look_{};  ///< of the worker, as are the two before and after it
-  std::string identity_;
+  Clock::time_point next_look_{};
+  std::string identity_;  ///< of the node and its master when last seen
 
   std::mutex mutex_;  ///< of all that follows
   Status status_;

@@ -40,17 +40,10 @@ class RightHandSide {
     for (int n = 0; n < start_.sites.count; ++n) {
       const Site site = start_.sites.sites[static_cast<std::size_t>(n)];
       const Vec2 point = site_point(system_, placed, site);
+      const SiteFate fate = fate_of(system_, start_.sites, start_.book, site, placed, point, t);
       ContactForces contact;
-      if (t == 0.0) {
-        // the book's own instant: what it says touches does, exactly on its face as well
-        if (may_push(system_, start_.book, site))
-          contact =
-              add_contact(placed, site, start_.book.contacts[static_cast<std::size_t>(site)].face, point, sum);
-      } else {
-        const SiteFate fate = fate_of(system_, start_.sites, start_.book, site, placed, point, t);
-        if (fate.phase == Phase::loaded && (fate.changed || may_push(system_, start_.book, site)))
-          contact = add_contact(placed, site, fate.face, point, sum);
-      }
+      if (fate.phase == Phase::loaded && (fate.changed || may_push(system_, start_.book, site)))
+        contact = add_contact(placed, site, fate.face, point, sum);
       if (forces != nullptr) (*forces)[static_cast<std::size_t>(site)] = contact;
     }
     return {s.vx,
